@@ -1,0 +1,161 @@
+//! Which rows a policy may choose from, state by state.
+
+use super::{RowId, StateId, StateSet};
+
+/// The rows `first ..= last`, one choice each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RowRange {
+    /// The first row.
+    pub first: RowId,
+    /// The last row.
+    pub last: RowId,
+}
+
+impl RowRange {
+    /// The number of rows in the range, at least 1.
+    pub fn len(self) -> usize {
+        (self.last - self.first) as usize + 1
+    }
+
+    /// Never: a range holds at least one row.
+    pub fn is_empty(self) -> bool {
+        false
+    }
+
+    /// The row ids, ascending.
+    pub fn rows(self) -> std::ops::RangeInclusive<RowId> {
+        self.first..=self.last
+    }
+}
+
+/// The choices of every state, as ranges of row ids.
+///
+/// A state is *absorbing* if its only choice is to stay with probability 1; such self-loops have no row.
+/// A state with neither is a *deadlock*: like PRISM, everything here treats it as absorbing, but it has no
+/// choice that would be written to a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choices {
+    /// Where the ranges of each state start; one more entry than states.
+    starts: Vec<usize>,
+    ranges: Vec<RowRange>,
+    absorbing: StateSet,
+    num_choices: u64,
+}
+
+/// Builds [`Choices`] state by state.
+#[derive(Debug)]
+pub struct ChoicesBuilder {
+    choices: Choices,
+}
+
+impl Choices {
+    /// The number of states.
+    pub fn num_states(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The number of choices of all states, self-loops included.
+    pub fn num_choices(&self) -> u64 {
+        self.num_choices
+    }
+
+    /// The ranges of one state; empty for absorbing states and deadlocks.
+    pub fn ranges(&self, state: StateId) -> &[RowRange] {
+        &self.ranges[self.starts[state as usize]..self.starts[state as usize + 1]]
+    }
+
+    /// The number of ranges of all states.
+    pub fn num_ranges(&self) -> usize {
+        self.ranges.len()
+    }
+
+    /// The row ids of one state, in the order of its choices.
+    pub fn rows(&self, state: StateId) -> impl Iterator<Item = RowId> + '_ {
+        self.ranges(state).iter().flat_map(|range| range.rows())
+    }
+
+    /// Whether the only choice of a state is to stay.
+    pub fn is_absorbing(&self, state: StateId) -> bool {
+        self.absorbing.contains(state as usize)
+    }
+
+    /// Whether a state has no choice at all.
+    pub fn is_deadlock(&self, state: StateId) -> bool {
+        self.ranges(state).is_empty() && !self.is_absorbing(state)
+    }
+
+    /// The absorbing states.
+    pub fn absorbing(&self) -> &StateSet {
+        &self.absorbing
+    }
+}
+
+impl ChoicesBuilder {
+    /// No states yet, with room for `states`.
+    pub fn with_capacity(states: usize) -> Self {
+        let mut starts = Vec::with_capacity(states + 1);
+        starts.push(0);
+        let absorbing = StateSet::with_capacity(states);
+        Self { choices: Choices { starts, ranges: vec![], absorbing, num_choices: 0 } }
+    }
+
+    /// Adds the rows `first ..= last` to the state under construction, merged with what they continue.
+    pub fn push_range(&mut self, range: RowRange) {
+        let choices = &mut self.choices;
+        choices.num_choices += range.len() as u64;
+        let start = choices.starts.last().copied().unwrap_or_default();
+        if let Some(previous) = choices.ranges[start..].last_mut()
+            && previous.last.checked_add(1) == Some(range.first)
+        {
+            previous.last = range.last;
+        } else {
+            choices.ranges.push(range);
+        }
+    }
+
+    /// Ends the state under construction.
+    pub fn finish_state(&mut self) {
+        self.choices.starts.push(self.choices.ranges.len());
+    }
+
+    /// Adds a state whose only choice is to stay.
+    pub fn push_absorbing(&mut self) {
+        let state = self.choices.num_states();
+        self.choices.absorbing.grow_and_insert(state);
+        self.choices.num_choices += 1;
+        self.finish_state();
+    }
+
+    /// The choices of all states added.
+    pub fn finish(mut self) -> Choices {
+        let states = self.choices.num_states();
+        self.choices.absorbing.grow(states);
+        self.choices.ranges.shrink_to_fit();
+        self.choices
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_merge_within_a_state_only() {
+        let mut builder = ChoicesBuilder::with_capacity(3);
+        builder.push_range(RowRange { first: 0, last: 2 });
+        builder.push_range(RowRange { first: 3, last: 3 });
+        builder.push_range(RowRange { first: 5, last: 6 });
+        builder.finish_state();
+        builder.push_absorbing();
+        builder.push_range(RowRange { first: 7, last: 7 });
+        builder.finish_state();
+        builder.finish_state();
+        let choices = builder.finish();
+        assert_eq!(choices.num_states(), 4);
+        assert_eq!(choices.num_choices(), 8);
+        assert_eq!(choices.ranges(0), [RowRange { first: 0, last: 3 }, RowRange { first: 5, last: 6 }]);
+        assert!(choices.is_absorbing(1) && !choices.is_deadlock(1));
+        assert_eq!(choices.rows(2).collect::<Vec<_>>(), [7]);
+        assert!(choices.is_deadlock(3));
+    }
+}

@@ -1,0 +1,225 @@
+//! The interval MDP itself.
+
+use super::{Choices, Labels, RowError, RowId, Rows, StateId, StateSet, StateVariables};
+
+/// An interval MDP that is known to be well-formed.
+///
+/// Every row admits a distribution, no id dangles, and there is an initial state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IntervalMdp {
+    parts: Parts,
+    size: Size,
+}
+
+/// What an [`IntervalMdp`] is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parts {
+    /// Whether there is a policy at all.
+    pub kind: ModelKind,
+    /// The interval distributions.
+    pub rows: Rows,
+    /// The choices of every state.
+    pub choices: Choices,
+    /// What the choices are called.
+    pub actions: ActionNames,
+    /// The initial states, at least one.
+    pub initial: StateSet,
+    /// Further named sets of states.
+    pub labels: Labels,
+    /// The variables of the states.
+    pub variables: StateVariables,
+}
+
+/// Who resolves the nondeterminism of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ModelKind {
+    /// An interval MDP: a policy picks choices, nature picks distributions.
+    Imdp,
+    /// An interval DTMC: nature only. Every state has exactly one choice.
+    Idtmc,
+}
+
+/// The names of choices.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ActionNames {
+    /// Choices have no names.
+    None,
+    /// A choice is called `a_<row id>`: compiled models, where a row is an action. Self-loops have no name.
+    OfRow,
+    /// Every choice has its own name or none: imported models.
+    OfChoice {
+        /// The distinct names.
+        names: Vec<String>,
+        /// Per choice, in the order of states and their choices (self-loops of absorbing states included),
+        /// an index into `names` or [`ActionNames::UNNAMED`].
+        ids: Vec<u32>,
+    },
+}
+
+impl ActionNames {
+    /// The index that stands for "this choice has no name".
+    pub const UNNAMED: u32 = u32::MAX;
+}
+
+/// How large an interval MDP is, counted as PRISM's headers count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// The number of states.
+    pub states: u64,
+    /// The number of choices, self-loops of absorbing states included.
+    pub choices: u64,
+    /// The number of transitions when every choice is written out.
+    pub transitions: u64,
+    /// The number of rows: distinct interval distributions, self-loops not counted.
+    pub rows: u64,
+    /// The number of entries of all rows: what is stored instead of the transitions.
+    pub entries: u64,
+}
+
+/// What makes [`Parts`] not an interval MDP.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ImdpError {
+    /// A row admits no distribution.
+    #[error("row {row}: {error}")]
+    Row {
+        /// The row.
+        row: RowId,
+        /// What is wrong with it.
+        error: RowError,
+    },
+    /// A row leads to a state that does not exist.
+    #[error("row {row} leads to state {successor}, but there are only {states} states")]
+    Successor {
+        /// The row.
+        row: RowId,
+        /// The state that does not exist.
+        successor: StateId,
+        /// The number of states.
+        states: usize,
+    },
+    /// A state has a choice whose row does not exist.
+    #[error("state {state} chooses row {row}, but there are only {rows} rows")]
+    Choice {
+        /// The state.
+        state: StateId,
+        /// The row that does not exist.
+        row: RowId,
+        /// The number of rows.
+        rows: usize,
+    },
+    /// A set of states or a variable is not about the states of this model.
+    #[error("{what} covers {found} states, the model has {states}")]
+    Length {
+        /// Which set or variable.
+        what: String,
+        /// How many states it covers.
+        found: usize,
+        /// The number of states.
+        states: usize,
+    },
+    /// There is no initial state.
+    #[error("there is no initial state")]
+    NoInitialState,
+}
+
+impl IntervalMdp {
+    /// Checks the parts and puts them together.
+    ///
+    /// # Errors
+    /// The first [`ImdpError`] found.
+    pub fn new(parts: Parts) -> Result<Self, ImdpError> {
+        let states = parts.choices.num_states();
+        for (row, entries) in (0..).zip(parts.rows.iter()) {
+            entries.validate().map_err(|error| ImdpError::Row { row, error })?;
+            if let Some(&successor) = entries.successors.last().filter(|&&s| s as usize >= states) {
+                return Err(ImdpError::Successor { row, successor, states });
+            }
+        }
+        let rows = parts.rows.len();
+        for state in 0..states as StateId {
+            if let Some(range) = parts.choices.ranges(state).iter().find(|range| range.last as usize >= rows)
+            {
+                return Err(ImdpError::Choice { state, row: range.last, rows });
+            }
+        }
+        let sets = parts.labels.iter().map(|(name, set)| (format!("label \"{name}\""), set.len()));
+        let variables = parts.variables.iter().map(|v| (format!("variable {}", v.name), v.num_states()));
+        let initial = std::iter::once(("the initial states".to_owned(), parts.initial.len()));
+        if let Some((what, found)) = initial.chain(sets).chain(variables).find(|(_, len)| *len != states) {
+            return Err(ImdpError::Length { what, found, states });
+        }
+        if parts.initial.is_clear() {
+            return Err(ImdpError::NoInitialState);
+        }
+        let size = measure(&parts);
+        Ok(Self { parts, size })
+    }
+
+    /// Whether there is a policy at all.
+    pub fn kind(&self) -> ModelKind {
+        self.parts.kind
+    }
+
+    /// How large the model is.
+    pub fn size(&self) -> Size {
+        self.size
+    }
+
+    /// The number of states.
+    pub fn num_states(&self) -> usize {
+        self.parts.choices.num_states()
+    }
+
+    /// The interval distributions.
+    pub fn rows(&self) -> &Rows {
+        &self.parts.rows
+    }
+
+    /// The choices of every state.
+    pub fn choices(&self) -> &Choices {
+        &self.parts.choices
+    }
+
+    /// What the choices are called.
+    pub fn actions(&self) -> &ActionNames {
+        &self.parts.actions
+    }
+
+    /// The initial states.
+    pub fn initial(&self) -> &StateSet {
+        &self.parts.initial
+    }
+
+    /// Named sets of states, other than `init`.
+    pub fn labels(&self) -> &Labels {
+        &self.parts.labels
+    }
+
+    /// The variables of the states.
+    pub fn variables(&self) -> &StateVariables {
+        &self.parts.variables
+    }
+}
+
+fn measure(parts: &Parts) -> Size {
+    // Transitions of a range are a difference of prefix sums: no loop over choices.
+    let mut before = Vec::with_capacity(parts.rows.len() + 1);
+    before.push(0u64);
+    let mut total = 0;
+    for row in parts.rows.iter() {
+        total += row.len() as u64;
+        before.push(total);
+    }
+    let states = parts.choices.num_states();
+    let of_ranges: u64 = (0..states as StateId)
+        .flat_map(|state| parts.choices.ranges(state))
+        .map(|range| before[range.last as usize + 1] - before[range.first as usize])
+        .sum();
+    Size {
+        states: states as u64,
+        choices: parts.choices.num_choices(),
+        transitions: of_ranges + parts.choices.absorbing().count_ones(..) as u64,
+        rows: parts.rows.len() as u64,
+        entries: parts.rows.num_entries() as u64,
+    }
+}

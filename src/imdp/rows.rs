@@ -1,0 +1,233 @@
+//! Interval distributions, stored one after the other.
+
+use super::{RowId, StateId};
+
+/// Interval distributions over successor states, in compressed sparse row form.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rows {
+    /// Where each row starts; one more entry than rows.
+    starts: Vec<usize>,
+    successors: Vec<StateId>,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+}
+
+/// One row: `lower[i] ≤ p(successors[i]) ≤ upper[i]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row<'a> {
+    /// The successor states, ascending.
+    pub successors: &'a [StateId],
+    /// The lower bounds.
+    pub lower: &'a [f64],
+    /// The upper bounds.
+    pub upper: &'a [f64],
+}
+
+/// What makes a list of intervals not a row.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RowError {
+    /// There is no successor.
+    #[error("the row has no successors")]
+    Empty,
+    /// The successors are not strictly ascending.
+    #[error("successor {successor} is out of order or listed twice")]
+    Order {
+        /// The successor.
+        successor: StateId,
+    },
+    /// An interval is not within `[0, 1]` or its ends are swapped.
+    #[error("the interval [{lower}, {upper}] of successor {successor} is not within [0, 1]")]
+    Interval {
+        /// The successor.
+        successor: StateId,
+        /// Its lower bound.
+        lower: f64,
+        /// Its upper bound.
+        upper: f64,
+    },
+    /// No distribution fits because the lower bounds exceed 1.
+    #[error("the lower bounds sum to {sum}, above 1")]
+    LowerSum {
+        /// The sum.
+        sum: f64,
+    },
+    /// No distribution fits because the upper bounds do not reach 1.
+    #[error("the upper bounds sum to {sum}, below 1")]
+    UpperSum {
+        /// The sum.
+        sum: f64,
+    },
+}
+
+impl Row<'_> {
+    /// The number of successors.
+    pub fn len(&self) -> usize {
+        self.successors.len()
+    }
+
+    /// Whether there are no successors.
+    pub fn is_empty(&self) -> bool {
+        self.successors.is_empty()
+    }
+
+    /// Checks that some distribution satisfies the row.
+    ///
+    /// `0 ≤ l ≤ u ≤ 1` entry by entry, and `Σ l ≤ 1 ≤ Σ u`. Each bound may be the double nearest to a
+    /// decimal, so the sums are allowed `m · 2⁻⁵³` for `m` successors.
+    ///
+    /// # Errors
+    /// The first [`RowError`] found.
+    pub fn validate(&self) -> Result<(), RowError> {
+        if self.is_empty() {
+            return Err(RowError::Empty);
+        }
+        if let Some(pair) = self.successors.windows(2).find(|pair| pair[0] >= pair[1]) {
+            return Err(RowError::Order { successor: pair[1] });
+        }
+        for (i, &successor) in self.successors.iter().enumerate() {
+            let (lower, upper) = (self.lower[i], self.upper[i]);
+            // Written so that NaN fails.
+            if !(0.0 <= lower && lower <= upper && upper <= 1.0) {
+                return Err(RowError::Interval { successor, lower, upper });
+            }
+        }
+        let allowance = self.len() as f64 * crate::numeric::UNIT_ROUNDOFF;
+        let lower_excess = sum_minus_one(self.lower);
+        if lower_excess > allowance {
+            return Err(RowError::LowerSum { sum: 1.0 + lower_excess });
+        }
+        let upper_excess = sum_minus_one(self.upper);
+        if upper_excess < -allowance {
+            return Err(RowError::UpperSum { sum: 1.0 + upper_excess });
+        }
+        Ok(())
+    }
+}
+
+/// `Σ values − 1` by compensated summation, accurate to far below an ulp of 1.
+fn sum_minus_one(values: &[f64]) -> f64 {
+    let (mut sum, mut compensation) = (-1.0, 0.0);
+    for &value in values {
+        let next: f64 = sum + value;
+        let virtual_value = next - sum;
+        compensation += (sum - (next - virtual_value)) + (value - virtual_value);
+        sum = next;
+    }
+    sum + compensation
+}
+
+impl Rows {
+    /// No rows yet.
+    pub fn new() -> Self {
+        Self { starts: vec![0], successors: vec![], lower: vec![], upper: vec![] }
+    }
+
+    /// No rows yet, with room for this many rows and entries.
+    pub fn with_capacity(rows: usize, entries: usize) -> Self {
+        let mut starts = Vec::with_capacity(rows + 1);
+        starts.push(0);
+        Self {
+            starts,
+            successors: Vec::with_capacity(entries),
+            lower: Vec::with_capacity(entries),
+            upper: Vec::with_capacity(entries),
+        }
+    }
+
+    /// Adds `lower ≤ p(successor) ≤ upper` to the row under construction.
+    pub fn push_entry(&mut self, successor: StateId, lower: f64, upper: f64) {
+        self.successors.push(successor);
+        self.lower.push(lower);
+        self.upper.push(upper);
+    }
+
+    /// Ends the row under construction and returns its id.
+    pub fn finish_row(&mut self) -> RowId {
+        self.starts.push(self.successors.len());
+        (self.starts.len() - 2) as RowId
+    }
+
+    /// Appends the rows of `other`, renumbered to follow these.
+    pub fn append(&mut self, other: &Self) {
+        let shift = self.successors.len();
+        self.starts.extend(other.starts[1..].iter().map(|start| start + shift));
+        self.successors.extend_from_slice(&other.successors);
+        self.lower.extend_from_slice(&other.lower);
+        self.upper.extend_from_slice(&other.upper);
+    }
+
+    /// The number of rows.
+    pub fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Whether there are no rows.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The number of entries of all rows together.
+    pub fn num_entries(&self) -> usize {
+        self.successors.len()
+    }
+
+    /// The row with this id.
+    pub fn row(&self, id: RowId) -> Row<'_> {
+        let range = self.starts[id as usize]..self.starts[id as usize + 1];
+        Row {
+            successors: &self.successors[range.clone()],
+            lower: &self.lower[range.clone()],
+            upper: &self.upper[range],
+        }
+    }
+
+    /// The number of entries of a row.
+    pub fn row_len(&self, id: RowId) -> usize {
+        self.starts[id as usize + 1] - self.starts[id as usize]
+    }
+
+    /// All rows, by id.
+    pub fn iter(&self) -> impl Iterator<Item = Row<'_>> {
+        (0..self.len()).map(|id| self.row(id as RowId))
+    }
+}
+
+impl Default for Rows {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(entries: &[(StateId, f64, f64)]) -> Result<(), RowError> {
+        let mut rows = Rows::new();
+        for &(successor, lower, upper) in entries {
+            rows.push_entry(successor, lower, upper);
+        }
+        let id = rows.finish_row();
+        rows.row(id).validate()
+    }
+
+    #[test]
+    fn rows_must_admit_a_distribution() {
+        assert_eq!(check(&[(0, 0.0, 0.5), (3, 0.5, 1.0)]), Ok(()));
+        assert_eq!(check(&[]), Err(RowError::Empty));
+        assert_eq!(check(&[(3, 0.5, 1.0), (3, 0.0, 0.5)]), Err(RowError::Order { successor: 3 }));
+        assert!(matches!(check(&[(0, 0.6, 0.5), (1, 0.0, 1.0)]), Err(RowError::Interval { .. })));
+        assert!(matches!(check(&[(0, 0.0, f64::NAN)]), Err(RowError::Interval { .. })));
+        assert!(matches!(check(&[(0, 0.6, 1.0), (1, 0.5, 1.0)]), Err(RowError::LowerSum { .. })));
+        assert!(matches!(check(&[(0, 0.0, 0.6), (1, 0.0, 0.3)]), Err(RowError::UpperSum { .. })));
+    }
+
+    #[test]
+    fn sums_are_those_of_the_decimals() {
+        // Ten times the double nearest to 0.1 is above 1, ten times the decimal is not.
+        let tenths: Vec<_> = (0..10).map(|s| (s, 0.1, 0.1)).collect();
+        assert_eq!(check(&tenths), Ok(()));
+        let more: Vec<_> = (0..10).map(|s| (s, 0.1 + 1e-15, 0.2)).collect();
+        assert!(matches!(check(&more), Err(RowError::LowerSum { .. })));
+    }
+}

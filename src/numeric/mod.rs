@@ -1,0 +1,25 @@
+//! Numbers that can be trusted: exact rationals, exact matrices, decimals rounded in one direction.
+//!
+//! A model file is written in decimals, so every quantity derived from it by `+ − × ÷` (grouped
+//! dynamics, right inverses, cell faces) is a rational number. It is computed as such and rounded to
+//! a double once, at the end; only measured or transcendental quantities are floating point from the
+//! start.
+
+mod decimal;
+mod exact_matrix;
+mod rational;
+
+pub use decimal::{round_decimal_down, round_decimal_up, shortest_decimal};
+pub use exact_matrix::{Definiteness, ExactMatrix, LdlFactors};
+pub use rational::{Rational, from_decimal, from_dyadic, to_f64, to_f64_down, to_f64_up};
+
+/// The unit roundoff of a double, `2⁻⁵³`: `fl(a ∘ b) = (a ∘ b)(1 + δ)` with `|δ| ≤ UNIT_ROUNDOFF`.
+pub const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
+
+/// An upper bound on the relative error of `operations` roundings in a row.
+///
+/// `γ_m = m u / (1 − m u)` (Higham, *Accuracy and Stability of Numerical Algorithms*, Lemma 3.1),
+/// with a factor 2 that also covers the rounding of the expressions in which it is used.
+pub fn rounding_factor(operations: usize) -> f64 {
+    2.0 * operations as f64 * UNIT_ROUNDOFF
+}

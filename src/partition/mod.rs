@@ -1,0 +1,12 @@
+//! Rectangular partitions with exact faces, and the regions that label their cells.
+//!
+//! Cells and regions are half-open boxes `[lower, upper)`: every state belongs to exactly one cell, and
+//! whether a cell lies in a region or meets it needs no assumption on the noise having a density.
+
+mod grid;
+mod labels;
+mod region;
+
+pub use grid::{Axis, CellId, Grid, GridError};
+pub use labels::{CellKind, CellLabels};
+pub use region::{NearMiss, Region, first_overlap, near_misses};

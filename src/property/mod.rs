@@ -1,0 +1,5 @@
+//! Properties in PRISM's syntax.
+
+mod syntax;
+
+pub use syntax::{Objective, PathFormula, Property, Resolution, StateFormula};
