@@ -1,9 +1,12 @@
 //! From a noisy linear control system to a controller with a proof.
+pub mod abstraction;
 pub mod dynamics;
 pub mod geometry;
 pub mod imdp;
 pub mod noise;
 pub mod numeric;
 pub mod partition;
+pub mod progress;
 pub mod property;
+pub mod spec;
 pub mod statistics;

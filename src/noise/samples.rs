@@ -1,7 +1,7 @@
 //! A table of noise samples.
 
 use crate::dynamics::LinearSystem;
-use crate::numeric::ExactMatrix;
+use crate::numeric::{ExactMatrix, UNIT_ROUNDOFF, rounding_factor};
 use nalgebra::{DMatrix, DVector};
 
 /// `N` samples of an `n`-dimensional noise, all finite.
@@ -10,13 +10,23 @@ pub struct NoiseSamples {
     dimension: usize,
     /// Sample after sample.
     values: Vec<f64>,
+    /// Per dimension, how far a value can be from the number it stands for.
+    rounding: Vec<f64>,
 }
 
 impl NoiseSamples {
     /// The table with these values, sample after sample.
     pub fn new(dimension: usize, values: Vec<f64>) -> Self {
         assert!(dimension > 0 && values.len().is_multiple_of(dimension), "whole samples");
-        Self { dimension, values }
+        let mut samples = Self { dimension, values, rounding: vec![] };
+        let reading = |magnitude| magnitude * UNIT_ROUNDOFF;
+        samples.rounding = samples.magnitudes().into_iter().map(reading).collect();
+        samples
+    }
+
+    /// Per dimension, a bound on the rounding error of the values: of reading them, or of grouping them.
+    pub fn rounding(&self) -> &[f64] {
+        &self.rounding
     }
 
     /// The dimension `n` of the noise.
@@ -73,7 +83,12 @@ impl NoiseSamples {
                 .fold(zero, |sum, (i, step)| sum + &powers[d - 1 - i] * DVector::from_column_slice(step));
             sum.iter().copied().collect::<Vec<f64>>()
         });
-        Self { dimension: self.dimension, values: values.collect() }
+        let mut grouped = Self::new(self.dimension, values.collect());
+        let magnitudes = DVector::from_vec(self.magnitudes());
+        let sums: DVector<f64> = powers.iter().map(|power| power.abs() * &magnitudes).sum();
+        let factor = rounding_factor(d * (self.dimension + 2));
+        grouped.rounding = sums.iter().map(|sum| factor * sum).collect();
+        grouped
     }
 
     /// The table as CSV, one sample a line, each number in the shortest form that reads back the same.
@@ -102,6 +117,7 @@ mod tests {
         );
         // A (1, 1) + (10, 20) = (13, 21); the fifth sample does not fill a block.
         let samples = NoiseSamples::new(2, vec![1.0, 1.0, 10.0, 20.0, 0.0, 1.0, 0.0, 0.0, 9.0, 9.0]);
-        assert_eq!(samples.grouped(&system, 2), NoiseSamples::new(2, vec![13.0, 21.0, 1.0, 1.0]));
+        let grouped = samples.grouped(&system, 2);
+        assert_eq!(grouped.iter().collect::<Vec<_>>(), [[13.0, 21.0], [1.0, 1.0]]);
     }
 }

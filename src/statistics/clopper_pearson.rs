@@ -1,7 +1,6 @@
 //! One-sided Clopper–Pearson bounds, rounded outwards.
 
 use super::binomial::{ln_lower_tail, ln_upper_tail};
-use std::collections::HashMap;
 
 /// Brackets end when they are this narrow, relative to their position.
 const PRECISION: f64 = 1e-14;
@@ -123,33 +122,6 @@ fn bracket(excess: impl Fn(f64) -> f64, mut inside: f64, mut outside: f64) -> f6
         last_was_inside = Some(is_inside);
     }
     inside
-}
-
-/// The bounds for every number of successes at one `(n, level)`, each computed when first asked for.
-#[derive(Debug)]
-pub struct BinomialBounds {
-    trials: u64,
-    lower_level: f64,
-    upper_level: f64,
-    lower: HashMap<u64, f64>,
-    upper: HashMap<u64, f64>,
-}
-
-impl BinomialBounds {
-    /// Bounds for `trials` trials; the levels are one-sided.
-    pub fn new(trials: u64, lower_level: f64, upper_level: f64) -> Self {
-        Self { trials, lower_level, upper_level, lower: HashMap::new(), upper: HashMap::new() }
-    }
-
-    /// [`lower_bound`] for `k` successes.
-    pub fn lower(&mut self, k: u64) -> f64 {
-        *self.lower.entry(k).or_insert_with(|| lower_bound(k, self.trials, self.lower_level))
-    }
-
-    /// [`upper_bound`] for `k` successes.
-    pub fn upper(&mut self, k: u64) -> f64 {
-        *self.upper.entry(k).or_insert_with(|| upper_bound(k, self.trials, self.upper_level))
-    }
 }
 
 #[cfg(test)]

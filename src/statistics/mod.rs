@@ -11,6 +11,6 @@ mod unseen_mass;
 
 pub use binomial::{ln_lower_tail, ln_upper_tail};
 pub use budget::{Allocation, BudgetError, ConfidenceBudget};
-pub use clopper_pearson::{BinomialBounds, lower_bound, upper_bound};
+pub use clopper_pearson::{lower_bound, upper_bound};
 pub use reference::ReferenceIntervals;
 pub use unseen_mass::unseen_mass;

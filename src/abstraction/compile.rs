@@ -1,0 +1,275 @@
+//! The pipeline from problem to interval MDP.
+
+use super::enabled::{EnabledActions, enabled_actions};
+use super::landings::Landings;
+use super::states::{FAILED, REACHED, StateSpace, labels};
+use super::targets::Targets;
+use super::{pac, reference};
+use crate::dynamics::{Extent, FeedbackLaw};
+use crate::imdp::{
+    ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, MemoryError, ModelKind, Parts, RowRange,
+    Rows, StateId, require_memory,
+};
+use crate::partition::{CellId, CellKind};
+use crate::progress::Progress;
+use crate::property::{Objective, PathFormula, Property, Resolution, StateFormula};
+use crate::spec::{Probabilities, Problem};
+use crate::statistics::{Allocation, BudgetError};
+use rayon::prelude::*;
+use std::time::{Duration, Instant};
+
+/// A control problem as an interval MDP.
+#[derive(Clone, Debug)]
+pub struct Abstraction {
+    /// The model.
+    pub model: IntervalMdp,
+    /// The task as a property of the model.
+    pub property: Property,
+    /// The state that every cell of the partition became.
+    pub state_of_cell: Vec<StateId>,
+    /// The targets, one per row.
+    pub targets: Targets,
+    /// The law that steers to them.
+    pub law: FeedbackLaw,
+    /// What the intervals promise; `None` in `reference` mode, which promises nothing.
+    pub guarantee: Option<Guarantee>,
+    /// How long each phase took.
+    pub phases: Vec<(&'static str, Duration)>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// What the intervals of a model promise, and what it rests on.
+#[derive(Clone, Debug)]
+pub struct Guarantee {
+    /// The probability that some claim fails, at most.
+    pub beta: f64,
+    /// What the budget was spent on.
+    pub budget: Vec<Allocation>,
+    /// The bound on the mass outside the samples' bounding box.
+    pub unseen_mass: f64,
+}
+
+/// Why a valid problem has no abstraction.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum AbstractionError {
+    /// No action is enabled in any cell.
+    #[error("no action is enabled in any cell")]
+    NothingEnabled {
+        /// Whether there is a lower layer, which may be to blame.
+        stabilized: bool,
+    },
+    /// The samples prove too little.
+    #[error("{samples} samples leave {unseen} of the probability unseen")]
+    TooFewSamples {
+        /// The number of samples.
+        samples: u64,
+        /// How many would be enough.
+        needed: u64,
+        /// The bound on the unseen mass.
+        unseen: f64,
+    },
+    /// The model does not fit into memory.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
+    /// The budget was overspent: a mistake in this program.
+    #[error(transparent)]
+    Budget(#[from] BudgetError),
+    /// The result is not an interval MDP: a mistake in this program.
+    #[error("the abstraction is not an interval MDP: {0}")]
+    Invalid(#[from] ImdpError),
+    /// `B` has no right inverse: a mistake in this program, since problems are validated.
+    #[error("the grouped B has no right inverse")]
+    NotSteerable,
+}
+
+/// Measures the phases of the pipeline.
+struct Clock {
+    start: Instant,
+    phases: Vec<(&'static str, Duration)>,
+}
+
+impl Clock {
+    fn lap(&mut self, phase: &'static str) {
+        let now = Instant::now();
+        self.phases.push((phase, now - self.start));
+        self.start = now;
+    }
+}
+
+/// Abstracts a problem: targets, enabled actions, rows, labels, property.
+///
+/// # Errors
+/// [`AbstractionError`] if nothing is enabled, the samples are too few or the model too large.
+pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction, AbstractionError> {
+    let mut clock = Clock { start: Instant::now(), phases: vec![] };
+    let grid = &problem.grid;
+    let targets = Targets::new(&problem.targets, grid);
+    let layers = problem.stabilizer.as_ref().map(|stabilizer| &stabilizer.layers);
+    let law = FeedbackLaw::new(&problem.system, layers).ok_or(AbstractionError::NotSteerable)?;
+    let extent = Extent { state: grid.magnitudes(), target: targets.magnitudes() };
+    let constraints = law.constraints(&problem.input, layers.map(|layers| layers.abstract_input()), &extent);
+    clock.lap("law");
+
+    let ordinary: Vec<CellId> = (problem.labels.iter())
+        .filter_map(|(cell, kind)| (kind == CellKind::Ordinary).then_some(cell))
+        .collect();
+    progress.start("enabled actions", ordinary.len() as u64);
+    let enabled = enabled_actions(grid, &ordinary, &targets, &constraints, progress);
+    progress.finish();
+    if enabled.ranges.is_empty() && !ordinary.is_empty() {
+        return Err(AbstractionError::NothingEnabled { stabilized: layers.is_some() });
+    }
+    clock.lap("enabled actions");
+
+    let is_pac = matches!(problem.probabilities, Probabilities::Pac { .. });
+    let states = if is_pac { StateSpace::merged(&problem.labels) } else { StateSpace::complete(grid) };
+    let tolerance = is_pac.then(|| law.steering_error(&extent));
+    let landings = Landings::new(&problem.noise.samples, grid, &targets, tolerance);
+    // 4 bytes of successor and 16 of bounds per entry, twice while chunks are put together.
+    let entries = targets.len() as u64 * landings.window_volume(grid) as u64;
+    require_memory("the rows of the model", entries * 20 * 2)?;
+    clock.lap("samples");
+
+    progress.start("rows", targets.len() as u64);
+    let (rows, guarantee) = match &problem.probabilities {
+        Probabilities::Pac { beta } => {
+            let built = pac::build(problem, beta, &targets, &landings, &states, progress)?;
+            let guarantee = Guarantee {
+                beta: built.budget.total(),
+                budget: built.budget.allocations().to_vec(),
+                unseen_mass: built.unseen_mass,
+            };
+            (built.rows, Some(guarantee))
+        }
+        Probabilities::Reference { beta_per_interval } => {
+            (reference::build(problem, *beta_per_interval, &targets, &landings, &states, progress), None)
+        }
+    };
+    progress.finish();
+    clock.lap("rows");
+
+    let choices = choices(problem, &states, &enabled);
+    let blocked = states.select(|state| is_blocked(problem, &states, &choices, state));
+    let warnings = warnings(problem, blocked.count_ones(..));
+    let (reached, failed) = outcome_states(problem, &states, is_pac);
+    let model = IntervalMdp::new(Parts {
+        kind: ModelKind::Imdp,
+        rows,
+        choices,
+        actions: ActionNames::OfRow,
+        initial: states.initial(problem.initial_cell, &problem.labels),
+        labels: labels(blocked, reached, failed),
+        variables: states.variables(grid),
+    })?;
+    clock.lap("model");
+    Ok(Abstraction {
+        model,
+        property: reach_avoid(problem),
+        state_of_cell: (0..grid.num_cells()).map(|cell| states.of_cell(CellId(cell))).collect(),
+        targets,
+        law,
+        guarantee,
+        phases: clock.phases,
+        warnings,
+    })
+}
+
+/// Builds `count` rows in parallel and puts them together in order.
+pub(super) fn build_rows(
+    count: usize,
+    progress: &dyn Progress,
+    push_row: impl Fn(usize, &mut Rows) + Sync,
+) -> Rows {
+    const ROWS_PER_TASK: usize = 64;
+    let starts: Vec<usize> = (0..count).step_by(ROWS_PER_TASK).collect();
+    let parts: Vec<Rows> = starts
+        .into_par_iter()
+        .map(|start| {
+            let end = (start + ROWS_PER_TASK).min(count);
+            let mut rows = Rows::new();
+            (start..end).for_each(|target| push_row(target, &mut rows));
+            progress.advance((end - start) as u64);
+            rows
+        })
+        .collect();
+    let mut all = Rows::with_capacity(count, parts.iter().map(Rows::num_entries).sum());
+    for part in parts {
+        all.append(&part);
+    }
+    all
+}
+
+fn choices(problem: &Problem, states: &StateSpace, enabled: &EnabledActions) -> Choices {
+    let mut builder = ChoicesBuilder::with_capacity(states.len());
+    (0..states.heads()).for_each(|_| builder.push_absorbing());
+    let mut counts = enabled.ranges_per_cell.iter();
+    let mut ranges = enabled.ranges.as_slice();
+    for (_, cell) in states.cells() {
+        if problem.labels.kind(cell) != CellKind::Ordinary {
+            // The published tool draws goal and unsafe cells without choices.
+            builder.finish_state();
+            continue;
+        }
+        let (own, rest): (&[RowRange], _) =
+            ranges.split_at(counts.next().copied().unwrap_or_default() as usize);
+        ranges = rest;
+        if own.is_empty() {
+            builder.push_absorbing();
+        } else {
+            own.iter().for_each(|&range| builder.push_range(range));
+            builder.finish_state();
+        }
+    }
+    builder.finish()
+}
+
+/// Whether a state is an ordinary cell with nothing enabled.
+fn is_blocked(problem: &Problem, states: &StateSpace, choices: &Choices, state: StateId) -> bool {
+    choices.is_absorbing(state)
+        && states.cell(state).is_some_and(|cell| problem.labels.kind(cell) == CellKind::Ordinary)
+}
+
+fn outcome_states(
+    problem: &Problem,
+    states: &StateSpace,
+    is_pac: bool,
+) -> (crate::imdp::StateSet, crate::imdp::StateSet) {
+    let of_kind = |kind, heads: &[StateId]| {
+        states.select(|state| match states.cell(state) {
+            None => heads.contains(&state),
+            Some(cell) => problem.labels.kind(cell) == kind,
+        })
+    };
+    if is_pac {
+        (of_kind(CellKind::Goal, &[REACHED]), of_kind(CellKind::Unsafe, &[FAILED]))
+    } else {
+        (of_kind(CellKind::Goal, &[2]), of_kind(CellKind::Unsafe, &[0, 1]))
+    }
+}
+
+/// `Pmaxmin=? [ !"failed" U<=k "reached" ]`, compared with the threshold if there is one.
+fn reach_avoid(problem: &Problem) -> Property {
+    let path = PathFormula::Until {
+        left: StateFormula::Not(Box::new(StateFormula::Label("failed".into()))),
+        right: StateFormula::Label("reached".into()),
+        steps: problem.horizon,
+    };
+    Property { objective: Objective { resolution: Resolution::Pmaxmin, path }, at_least: problem.threshold }
+}
+
+fn warnings(problem: &Problem, blocked: usize) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if blocked > 0 {
+        let ordinary = problem.labels.count(CellKind::Ordinary);
+        warnings.push(format!(
+            "in {blocked} of {ordinary} ordinary cells no action is enabled (label \"deadlock\"): their value is 0"
+        ));
+    }
+    if let Some(cell) = problem.initial_cell
+        && problem.labels.kind(cell) == CellKind::Unsafe
+    {
+        warnings.push("/initial_state: the cell of the initial state is unsafe".to_owned());
+    }
+    warnings
+}

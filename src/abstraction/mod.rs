@@ -1,0 +1,21 @@
+//! From a control problem and noise samples to an interval MDP (ECC 2024, Sections III–V).
+//!
+//! Action `a` steers to target `d_a`, so `x⁺ = d_a + η` from every cell where it is enabled: the
+//! transition probabilities of an action are one *row*, shared by all these cells. On a lattice of targets
+//! the rows are translations of each other, and all of them follow from how often each *offset* from a
+//! target was hit by `d_a + δ_i`.
+
+mod compile;
+mod count_table;
+mod enabled;
+mod landing;
+mod landings;
+mod pac;
+mod reference;
+mod states;
+mod targets;
+
+pub use compile::{Abstraction, AbstractionError, Guarantee, compile};
+pub use enabled::enabled_actions;
+pub use landing::{Count, Landing, RegionCounts, Spread};
+pub use targets::{Alignment, Targets};

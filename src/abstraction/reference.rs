@@ -1,0 +1,58 @@
+//! The rows of the published reference tool: for comparison only, not a guarantee.
+//!
+//! Only cells hit by at least one sample are listed, goal and unsafe cells one by one, and state 0 stands
+//! for everything outside; every interval is that of [`ReferenceIntervals`]. Why this proves nothing: there
+//! is no union over the intervals, cells without samples get upper bound 0, upper bounds are rounded
+//! down, and zero lower bounds are raised to 10⁻⁴.
+
+use super::count_table::CountTable;
+use super::landings::{Landings, for_each_cell};
+use super::states::{OUTSIDE, StateSpace};
+use super::targets::Targets;
+use crate::imdp::Rows;
+use crate::partition::Grid;
+use crate::progress::Progress;
+use crate::spec::Problem;
+use crate::statistics::ReferenceIntervals;
+use rayon::prelude::*;
+
+/// One row per target.
+pub(super) fn build(
+    problem: &Problem,
+    beta_per_interval: f64,
+    targets: &Targets,
+    landings: &Landings<'_>,
+    states: &StateSpace,
+    progress: &dyn Progress,
+) -> Rows {
+    let grid: &Grid = &problem.grid;
+    let intervals = ReferenceIntervals::new(problem.noise.samples.len() as u64, beta_per_interval);
+    let inside: Vec<u32> = (0..targets.len())
+        .into_par_iter()
+        .map_init(
+            || vec![0; grid.dimension()],
+            |origin, target| {
+                let landing = landings.of(targets, target, grid, origin);
+                let mut inside = 0;
+                for_each_cell(&landing, origin, grid, |_, count| inside += count.certain);
+                inside
+            },
+        )
+        .collect();
+    let of_cells = landings.distinct_counts(targets, grid);
+    let of_cells = CountTable::new(of_cells.iter().map(|count| count.certain), |k| intervals.of_cell(k));
+    let of_outside = CountTable::new(inside.iter().copied(), |k| intervals.of_outside(k));
+    super::compile::build_rows(targets.len(), progress, |target, rows| {
+        let mut origin = vec![0; grid.dimension()];
+        let landing = landings.of(targets, target, grid, &mut origin);
+        let (lower, upper) = of_outside.get(inside[target]);
+        rows.push_entry(OUTSIDE, lower, upper);
+        for_each_cell(&landing, &origin, grid, |cell, count| {
+            if count.certain > 0 {
+                let (lower, upper) = of_cells.get(count.certain);
+                rows.push_entry(states.of_cell(cell), lower, upper);
+            }
+        });
+        rows.finish_row();
+    })
+}

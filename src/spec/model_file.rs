@@ -1,0 +1,369 @@
+//! The fields of a model file.
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+use std::fmt;
+
+/// A control problem: linear dynamics, noise, input limits, a partition and a reach-avoid task.
+///
+/// `x⁺ = A x + B u + q + η` with `n` states and `p` inputs. Numbers mean the decimals as written.
+#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ModelFile {
+    /// Where the JSON Schema of this file is; ignored.
+    #[serde(rename = "$schema", default)]
+    pub schema: Option<String>,
+    /// A short name.
+    pub name: String,
+    /// What the model is about, where its numbers come from.
+    #[serde(default)]
+    pub description: Option<String>,
+    /// The dynamics of one step.
+    pub dynamics: DynamicsSpec,
+    /// Samples of the noise, or a distribution to draw them from.
+    pub noise: NoiseSpec,
+    /// The inputs allowed in one step: a box or a polytope.
+    pub input: SetSpec,
+    /// A lower layer of linear feedback that stabilises the system.
+    #[serde(default)]
+    pub stabilizer: Option<StabilizerSpec>,
+    /// The grid of cells; everything outside counts as failed.
+    pub partition: GridSpec,
+    /// The points that actions steer to: "centers" (of all cells, the default), a grid whose cell centres
+    /// are the targets, or a list of points.
+    #[serde(default)]
+    pub targets: TargetsSpec,
+    /// What the controller is to achieve.
+    pub task: TaskSpec,
+    /// The state from which the guarantee is wanted; without it every ordinary cell is initial.
+    #[serde(default)]
+    pub initial_state: Option<Vec<f64>>,
+    /// How probability intervals are computed from the samples.
+    #[serde(default)]
+    pub probabilities: ProbabilitiesSpec,
+}
+
+/// The dynamics `x⁺ = A x + B u + q + η` of one step.
+#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DynamicsSpec {
+    /// `A`, n×n, row by row; not singular.
+    #[serde(rename = "A")]
+    pub a: Vec<Vec<f64>>,
+    /// `B`, n×p, row by row.
+    #[serde(rename = "B")]
+    pub b: Vec<Vec<f64>>,
+    /// `q`, n numbers; 0 if absent.
+    #[serde(default)]
+    pub q: Option<Vec<f64>>,
+    /// How many steps d become one: an integer, or "auto" (the default) for the smallest number that makes
+    /// the grouped `B` of full row rank.
+    #[serde(default)]
+    pub group_steps: GroupSteps,
+}
+
+/// How many steps become one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GroupSteps {
+    /// As few as make the grouped `B` of full row rank.
+    #[default]
+    Auto,
+    /// This many.
+    Steps(u32),
+}
+
+/// Where noise samples come from: `samples`, or `gaussian` with `count` and `seed`.
+#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NoiseSpec {
+    /// A file of samples.
+    #[serde(default)]
+    pub samples: Option<SamplesSpec>,
+    /// A normal distribution of the noise of one step.
+    #[serde(default)]
+    pub gaussian: Option<GaussianSpec>,
+    /// How many samples of the grouped noise to draw (each from d draws of one step).
+    #[serde(default)]
+    pub count: Option<u64>,
+    /// The seed of the draws; 0 if absent.
+    #[serde(default)]
+    pub seed: Option<u64>,
+}
+
+/// A file of noise samples.
+#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SamplesSpec {
+    /// A CSV file without header, one sample of n numbers per line; relative to the model file.
+    pub file: String,
+    /// "grouped" if a sample is the noise of d steps together, "step" if it is that of one step.
+    pub of: SampleKind,
+}
+
+/// What a sample in a file is the noise of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum SampleKind {
+    /// Of d steps together.
+    Grouped,
+    /// Of one step; d samples are combined into one.
+    Step,
+}
+
+/// A normal distribution.
+#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GaussianSpec {
+    /// The mean, n numbers; 0 if absent.
+    #[serde(default)]
+    pub mean: Option<Vec<f64>>,
+    /// The covariance, n×n, symmetric and positive semidefinite.
+    pub covariance: Vec<Vec<f64>>,
+}
+
+/// A set of inputs: a box (`lower`, `upper`) or a polytope `{u : G u ≤ g}`.
+#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SetSpec {
+    /// The lower corner of a box.
+    #[serde(default)]
+    pub lower: Option<Vec<f64>>,
+    /// The upper corner of a box.
+    #[serde(default)]
+    pub upper: Option<Vec<f64>>,
+    /// The normals of a polytope, one row per half-space.
+    #[serde(rename = "G", default)]
+    pub normals: Option<Vec<Vec<f64>>>,
+    /// The offsets of a polytope, one per half-space.
+    #[serde(rename = "g", default)]
+    pub offsets: Option<Vec<f64>>,
+}
+
+/// A lower layer `u = −K (x − x̄) + u′` on the grouped system (d·p inputs).
+#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StabilizerSpec {
+    /// Weights from which the gain is computed.
+    #[serde(default)]
+    pub lqr: Option<LqrSpec>,
+    /// The gain `K` itself, (d·p)×n.
+    #[serde(default)]
+    pub gain: Option<Vec<Vec<f64>>>,
+    /// `x̄`, the state to stabilise about; 0 if absent.
+    #[serde(default)]
+    pub about: Option<Vec<f64>>,
+    /// `U′`, what is left to the abstraction: a box or polytope of d·p inputs that contains 0.
+    pub abstract_input: SetSpec,
+}
+
+/// The weights of a linear-quadratic regulator for the grouped system.
+#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LqrSpec {
+    /// `Q`, n×n, symmetric positive definite.
+    #[serde(rename = "Q")]
+    pub q: Vec<Vec<f64>>,
+    /// `R`, (d·p)×(d·p), symmetric positive definite.
+    #[serde(rename = "R")]
+    pub r: Vec<Vec<f64>>,
+    /// Rounds the gain to this many decimals; not at all if absent.
+    #[serde(default)]
+    #[schemars(range(max = 300))]
+    pub decimals: Option<u32>,
+}
+
+/// A grid: the box from `lower` to `upper`, cut into equal cells.
+#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GridSpec {
+    /// The lower corner, n numbers.
+    pub lower: Vec<f64>,
+    /// The upper corner, n numbers.
+    pub upper: Vec<f64>,
+    /// The number of cells in each dimension.
+    pub cells: Vec<u32>,
+}
+
+/// The points that actions steer to.
+#[derive(Clone, Debug, Default)]
+pub enum TargetsSpec {
+    /// The centres of all cells.
+    #[default]
+    Centers,
+    /// The centres of the cells of this grid.
+    Grid(GridSpec),
+    /// These points.
+    Points(Vec<Vec<f64>>),
+}
+
+/// A reach-avoid task.
+#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TaskSpec {
+    /// The goal: a union of boxes; a cell counts if the union contains it.
+    pub goal: Vec<RegionSpec>,
+    /// What must be avoided: a union of boxes; a cell counts if it meets one. Boxes are half-open,
+    /// [lower, upper), like cells.
+    #[serde(rename = "unsafe", default)]
+    pub unsafe_: Vec<RegionSpec>,
+    /// The number of original steps within which the goal must be reached, or "infinite".
+    pub horizon: Horizon,
+    /// The probability that is wanted, if any.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub threshold: Option<f64>,
+}
+
+/// A box with possibly unbounded sides.
+#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RegionSpec {
+    /// The lower corner, n numbers; null is unbounded.
+    pub lower: Vec<Option<f64>>,
+    /// The upper corner, n numbers; null is unbounded.
+    pub upper: Vec<Option<f64>>,
+}
+
+/// A number of steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Horizon {
+    /// No limit.
+    Infinite,
+    /// This many.
+    Steps(u64),
+}
+
+/// How probability intervals are computed: `{"mode": "pac", "confidence": 0.99}` (or `"beta"`), or
+/// `{"mode": "reference", "beta_per_interval": 0.01}`.
+#[derive(Clone, Debug, Default, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ProbabilitiesSpec {
+    /// "pac" (the default) is a guarantee; "reference" repeats the published tool's numbers.
+    #[serde(default)]
+    pub mode: Mode,
+    /// pac: the probability with which all intervals hold together; 0.99 if neither this nor beta is given.
+    #[serde(default)]
+    pub confidence: Option<f64>,
+    /// pac: 1 − confidence, where that is easier to write.
+    #[serde(default)]
+    pub beta: Option<f64>,
+    /// reference: the failure probability of one interval.
+    #[serde(default)]
+    pub beta_per_interval: Option<f64>,
+}
+
+/// Which kind of probability intervals.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Mode {
+    /// Every claim holds, jointly, with the stated confidence.
+    #[default]
+    Pac,
+    /// The published tool's numbers; not a guarantee.
+    Reference,
+}
+
+/// Reads an unsigned integer or one keyword.
+struct IntegerOr {
+    keyword: &'static str,
+}
+
+impl<'de> Visitor<'de> for IntegerOr {
+    type Value = Option<u64>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a positive integer or \"{}\"", self.keyword)
+    }
+
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Option<u64>, E> {
+        if value == 0 { Err(E::invalid_value(de::Unexpected::Unsigned(0), &self)) } else { Ok(Some(value)) }
+    }
+
+    fn visit_str<E: de::Error>(self, value: &str) -> Result<Option<u64>, E> {
+        if value == self.keyword {
+            Ok(None)
+        } else {
+            Err(E::invalid_value(de::Unexpected::Str(value), &self))
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for GroupSteps {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match deserializer.deserialize_any(IntegerOr { keyword: "auto" })? {
+            None => Ok(Self::Auto),
+            Some(steps) => u32::try_from(steps).map(Self::Steps).map_err(de::Error::custom),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Horizon {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let steps = deserializer.deserialize_any(IntegerOr { keyword: "infinite" })?;
+        Ok(steps.map_or(Self::Infinite, Self::Steps))
+    }
+}
+
+impl<'de> Deserialize<'de> for TargetsSpec {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(TargetsVisitor)
+    }
+}
+
+struct TargetsVisitor;
+
+impl<'de> Visitor<'de> for TargetsVisitor {
+    type Value = TargetsSpec;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("\"centers\", a grid {\"lower\", \"upper\", \"cells\"}, or a list of points")
+    }
+
+    fn visit_str<E: de::Error>(self, value: &str) -> Result<TargetsSpec, E> {
+        match value {
+            "centers" => Ok(TargetsSpec::Centers),
+            other => Err(E::invalid_value(de::Unexpected::Str(other), &self)),
+        }
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TargetsSpec, A::Error> {
+        GridSpec::deserialize(MapAccessDeserializer::new(map)).map(TargetsSpec::Grid)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, items: A) -> Result<TargetsSpec, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(items)).map(TargetsSpec::Points)
+    }
+}
+
+impl JsonSchema for GroupSteps {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "GroupSteps".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({"anyOf": [{"type": "integer", "minimum": 1}, {"const": "auto"}]})
+    }
+}
+
+impl JsonSchema for Horizon {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Horizon".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({"anyOf": [{"type": "integer", "minimum": 1}, {"const": "infinite"}]})
+    }
+}
+
+impl JsonSchema for TargetsSpec {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Targets".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let grid = generator.subschema_for::<GridSpec>();
+        let points = generator.subschema_for::<Vec<Vec<f64>>>();
+        json_schema!({"anyOf": [{"const": "centers"}, grid, points]})
+    }
+}
