@@ -2,7 +2,7 @@
 
 use crate::numeric::{Rational, to_f64, to_f64_down};
 use num_bigint::BigInt;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A total failure probability `β`, handed out to families of events and never overspent.
 ///
@@ -16,7 +16,7 @@ pub struct ConfidenceBudget {
 }
 
 /// One family of events and what it was given.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Allocation {
     /// What the events are about.
     pub family: String,

@@ -1,0 +1,87 @@
+//! Errors as the tools report them, and their exit codes.
+
+use crate::abstraction::AbstractionError;
+use crate::run_directory::RunDirectoryError;
+use crate::spec::Diagnostic;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// Why a tool stopped.
+#[derive(Debug, thiserror::Error)]
+pub enum CliError {
+    /// The input is wrong (exit code 2).
+    #[error("{0}")]
+    Input(String),
+    /// The system or this program failed (exit code 4).
+    #[error("{0}")]
+    Failure(String),
+    /// Nobody reads the output any more; nothing to report.
+    #[error("the output was closed")]
+    OutputClosed,
+}
+
+impl From<Diagnostic> for CliError {
+    fn from(error: Diagnostic) -> Self {
+        Self::Input(error.to_string())
+    }
+}
+
+impl From<RunDirectoryError> for CliError {
+    fn from(error: RunDirectoryError) -> Self {
+        match error {
+            RunDirectoryError::Io { .. } => Self::Failure(error.to_string()),
+            _ => Self::Input(error.to_string()),
+        }
+    }
+}
+
+impl CliError {
+    /// An abstraction that failed, about the model file `file`.
+    pub fn of_abstraction(error: &AbstractionError, file: &str) -> Self {
+        let diagnostic = match error {
+            AbstractionError::NothingEnabled { stabilized: true } => Diagnostic::at(
+                "/stabilizer/abstract_input",
+                "a lower layer with which no action is enabled in any cell",
+                "at least one cell and target such that u = −K(x − x̄) + u′ stays in U with u′ in U′",
+            )
+            .remedy("Enlarge U′ or U, penalise the input more (a larger R), or use smaller cells."),
+            AbstractionError::NothingEnabled { stabilized: false } => Diagnostic::at(
+                "/input",
+                "inputs with which no action is enabled in any cell",
+                "at least one cell from all of which one target can be reached with u in U",
+            )
+            .remedy("Enlarge U, use smaller cells, or group more steps."),
+            AbstractionError::TooFewSamples { samples, needed, unseen } => Diagnostic::at(
+                "/noise",
+                format!("{samples} samples, which leave up to {unseen:.3} of the probability unseen"),
+                format!("at least {needed} samples for this confidence"),
+            )
+            .remedy("Collect more samples or lower the confidence."),
+            AbstractionError::Memory(error) => {
+                Diagnostic::at("/partition/cells", error.to_string(), "a model that fits")
+                    .remedy("Use fewer cells or targets, or a machine with more memory.")
+            }
+            AbstractionError::Budget(_) | AbstractionError::Invalid(_) | AbstractionError::NotSteerable => {
+                return Self::Failure(format!(
+                    "{file}: {error}\n  This is a mistake in dynabs; please report it."
+                ));
+            }
+        };
+        diagnostic.in_file(file).into()
+    }
+}
+
+/// Reports an error on stderr and turns the outcome into an exit code.
+///
+/// 0 done, 2 bad input or usage, 4 I/O or internal error; 1 and 3 are `dynabs-check`'s.
+pub fn exit_with(outcome: Result<ExitCode, CliError>) -> ExitCode {
+    match outcome {
+        Ok(code) => code,
+        Err(CliError::OutputClosed) => ExitCode::SUCCESS,
+        Err(error) => {
+            // If stderr is closed too, the exit code has to do.
+            let _ = writeln!(io::stderr(), "error: {error}");
+            ExitCode::from(if matches!(error, CliError::Input(_)) { 2 } else { 4 })
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! What a compilation was, for people.
+
+use super::thousands;
+use crate::run_directory::Manifest;
+use std::fmt::Write as _;
+
+/// The summary of a run; `directory` is where it was written, if it was.
+pub(super) fn summary(manifest: &Manifest, directory: Option<&str>) -> String {
+    let mut text = String::new();
+    let mut line = |name: &str, value: String| {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {name:<13}{value}");
+    };
+    line("states", thousands(manifest.states));
+    line("choices", thousands(manifest.choices));
+    line(
+        "transitions",
+        format!(
+            "{} ({} stored, in {} shared rows)",
+            thousands(manifest.transitions),
+            thousands(manifest.row_entries),
+            thousands(manifest.rows)
+        ),
+    );
+    if let Some(layers) = &manifest.stabilizer {
+        let gain: Vec<_> = layers.gain.iter().map(|row| format!("{row:?}")).collect();
+        line("gain K", gain.join(" "));
+        let eigenvalues: Vec<_> =
+            layers.closed_loop_eigenvalues.iter().map(|[re, im]| format!("{re:.5}{im:+.5}i")).collect();
+        line("eigenvalues", eigenvalues.join("  "));
+        if let Some(residual) = layers.riccati_residual {
+            line("Riccati", format!("relative residual {residual:.1e}"));
+        }
+    }
+    match (manifest.confidence, manifest.probabilities.unseen_mass) {
+        (Some(confidence), Some(unseen)) => {
+            let samples = thousands(manifest.samples);
+            line("intervals", format!("hold together with confidence {confidence}, from {samples} samples"));
+            let split: Vec<_> = manifest
+                .probabilities
+                .budget
+                .iter()
+                .map(|a| format!("{} {:.2e} over {} events", a.family, a.beta, a.events))
+                .collect();
+            line("budget", split.join(", "));
+            line("unseen mass", format!("at most {unseen:.6}"));
+        }
+        _ => line("intervals", "those of the published tool: for comparison, not a guarantee".into()),
+    }
+    if manifest.group_steps > 1 {
+        line("one step", format!("stands for {} of the original system", manifest.group_steps));
+    }
+    line("property", manifest.property.clone());
+    if let Some(directory) = directory {
+        let bytes: u64 = manifest.outputs.iter().map(|file| file.bytes).sum();
+        line("written", format!("{directory} ({:.1} MB)", bytes as f64 / 1e6));
+    }
+    let mode = &manifest.mode;
+    format!("{} ({mode} mode)\n{text}", manifest.name)
+}

@@ -1,0 +1,3 @@
+//! File formats of interval MDPs.
+
+pub mod prism;

@@ -1,0 +1,11 @@
+//! The output directory of a run: staged, hashed, renamed into place, described by a manifest.
+
+mod hashing;
+mod manifest;
+mod staging;
+mod write;
+
+pub use hashing::{HashingWriter, sha256_hex};
+pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile, ProbabilityReport};
+pub use staging::{RunDirectoryError, Staging};
+pub use write::{WriteOptions, write_run};
