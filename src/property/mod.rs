@@ -1,7 +1,8 @@
 //! Properties in PRISM's syntax: what is asked of an interval MDP.
 //!
 //! A text becomes a [`Property`], which says what was written; [`Property::resolve`] adds the kind of model
-//! and gives an [`Objective`], which says who maximises and who minimises.
+//! and gives an [`Objective`], which says who maximises and who minimises; [`Objective::query`] adds the
+//! model and gives a [`Query`], which names sets of states and is all that a solver needs.
 //!
 //! | text | asks |
 //! |---|---|
@@ -26,7 +27,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod closest_name;
+mod columns;
 mod error;
+mod evaluate;
 mod grammar;
 mod integer_expression;
 mod lexer;
@@ -35,6 +39,7 @@ mod parse_error;
 mod parser;
 mod path_formula;
 mod probability;
+mod query;
 mod question;
 mod resolution;
 mod state_formula;
@@ -47,6 +52,7 @@ pub use error::PropertyError;
 pub use integer_expression::IntegerExpression;
 pub use parse_error::{ParseError, ParseErrorKind, Position};
 pub use path_formula::PathFormula;
+pub use query::{Query, QueryKind};
 pub use question::{Objective, Property, Question};
 pub use resolution::{Optimum, Resolution};
 pub use state_formula::{Comparison, StateFormula};
