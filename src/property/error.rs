@@ -1,0 +1,85 @@
+//! What can be wrong with a property and a model that are each right on their own.
+
+use super::{Optimum, Resolution};
+
+/// A property does not fit its model.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PropertyError {
+    /// The direction of nature is missing.
+    #[error(
+        "{found} of an interval MDP does not say what nature does: PRISM reads it as {prism}, Storm as {storm}; \
+         write Pmaxmin, Pmaxmax, Pminmin or Pminmax (policy first, then nature)"
+    )]
+    PlainOptimum {
+        /// What was written.
+        found: Optimum,
+        /// What PRISM reads.
+        prism: &'static str,
+        /// What Storm reads.
+        storm: &'static str,
+    },
+    /// The direction of a policy is given, but there is none.
+    #[error("{found} needs a policy, an interval DTMC has none: write {instead}")]
+    NoPolicy {
+        /// What was written.
+        found: Resolution,
+        /// What to write.
+        instead: &'static str,
+    },
+    /// The model has no such label.
+    #[error("the model has no label \"{name}\"{}; its labels: {}", suggestion(.closest), list(.known))]
+    UnknownLabel {
+        /// The label that was asked for.
+        name: String,
+        /// What may have been meant, as it is written in a formula.
+        closest: Option<String>,
+        /// All labels.
+        known: Vec<String>,
+    },
+    /// The model has no such variable.
+    #[error("the model has no variable {name}{}; its variables: {}", suggestion(.closest), list(.known))]
+    UnknownVariable {
+        /// The variable that was asked for.
+        name: String,
+        /// What may have been meant, as it is written in a formula.
+        closest: Option<String>,
+        /// All variables.
+        known: Vec<String>,
+    },
+    /// An integer variable stands where a formula must.
+    #[error("{name} is an integer variable and no formula by itself: compare it, as in {name}=1")]
+    NotBoolean {
+        /// The variable.
+        name: String,
+    },
+    /// A Boolean variable stands where an integer must.
+    #[error("{name} is a Boolean variable and no integer: write {name} or !{name} without comparing it")]
+    NotInteger {
+        /// The variable.
+        name: String,
+    },
+    /// An integer expression leaves the range of 64-bit integers.
+    #[error("the value of {expression} in state {state} does not fit into 64 bits")]
+    Overflow {
+        /// The expression.
+        expression: String,
+        /// The state.
+        state: usize,
+    },
+}
+
+fn suggestion(closest: &Option<String>) -> String {
+    closest.as_ref().map(|name| format!(" (did you mean {name}?)")).unwrap_or_default()
+}
+
+/// At most this many names are listed in a message.
+const LISTED: usize = 20;
+
+fn list(names: &[String]) -> String {
+    match names.len() {
+        0 => "none".to_owned(),
+        n if n <= LISTED => names.join(", "),
+        n => format!("{} and {} more", names[..LISTED].join(", "), n - LISTED),
+    }
+}

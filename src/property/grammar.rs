@@ -1,0 +1,199 @@
+//! PRISM's grammar of expressions.
+//!
+//! From the weakest operator to the strongest, as in `PrismParser.jj`: `U` (once), `X F G`, `=>` (to the
+//! right), `<=>`, `|`, `&`, `!`, `= !=`, `< <= > >=`, `+ -`, `*`, unary minus. A temporal operator inside
+//! of another expression needs parentheses.
+
+use super::lexer::TokenKind;
+use super::parser::{Parser, Result};
+use super::tree::{BinaryOperator, Node, NodeKind, TemporalOperator};
+use super::unsupported;
+use super::{Comparison, ParseErrorKind};
+
+// How tightly operators bind.
+const IMPLIES: u8 = 0;
+const IFF: u8 = 1;
+const OR: u8 = 2;
+const AND: u8 = 3;
+const NOT: u8 = 4;
+const EQUALITY: u8 = 5;
+const RELATION: u8 = 6;
+const SUM: u8 = 7;
+const PRODUCT: u8 = 8;
+const UNARY: u8 = 9;
+
+impl Parser<'_> {
+    /// An expression that may be a path formula.
+    pub(super) fn path_expression(&mut self) -> Result<Node> {
+        let left = self.temporal_unary()?;
+        match self.peek() {
+            TokenKind::Word("U") => {
+                self.advance();
+                let steps = self.step_bound()?;
+                let right = self.temporal_unary()?;
+                let span = left.span.to(right.span);
+                self.node(NodeKind::Until(steps, Box::new(left), Box::new(right)), span)
+            }
+            TokenKind::Word("W") => Err(self.error(unsupported::WEAK_UNTIL)),
+            TokenKind::Word("R") => Err(self.error(unsupported::RELEASE)),
+            _ => Ok(left),
+        }
+    }
+
+    fn temporal_unary(&mut self) -> Result<Node> {
+        let start = self.span();
+        let operator = match self.peek() {
+            TokenKind::Word("X") => TemporalOperator::Next,
+            TokenKind::Word("F") => TemporalOperator::Finally,
+            TokenKind::Word("G") => TemporalOperator::Globally,
+            _ => return self.expression(),
+        };
+        self.advance();
+        let bound = self.span();
+        let steps = self.step_bound()?;
+        if operator == TemporalOperator::Next && steps.is_some() {
+            return Err(self.error_at(bound, unsupported::NEXT_BOUND));
+        }
+        let operand = self.nested(Self::temporal_unary)?;
+        let span = start.to(operand.span);
+        self.node(NodeKind::Temporal(operator, steps, Box::new(operand)), span)
+    }
+
+    /// An expression that is no path formula.
+    pub(super) fn expression(&mut self) -> Result<Node> {
+        let node = self.binary(IMPLIES)?;
+        match self.peek() {
+            TokenKind::Symbol("?") => Err(self.error(unsupported::CONDITIONAL)),
+            _ => Ok(node),
+        }
+    }
+
+    /// `<=k` or `<k`, as the number of steps.
+    fn step_bound(&mut self) -> Result<Option<u64>> {
+        let least = match self.peek() {
+            TokenKind::Symbol("<=") => 0,
+            TokenKind::Symbol("<") => 1,
+            TokenKind::Symbol(">=" | ">" | "=") => return Err(self.error(unsupported::LOWER_STEP_BOUND)),
+            TokenKind::Symbol("[") => return Err(self.error(unsupported::STEP_INTERVAL)),
+            _ => return Ok(None),
+        };
+        self.advance();
+        if let TokenKind::Word(_) = self.peek() {
+            return Err(self.error(unsupported::CONSTANT_BOUND));
+        }
+        // As in PRISM, the bound takes what it can: `F<=8 -x=1` is bounded by `8-x`.
+        let bound = self.nested(|parser| parser.binary(SUM))?;
+        match constant(&bound) {
+            Some(steps) if (least..=i64::from(i32::MAX)).contains(&steps) => {
+                Ok(u64::try_from(steps - least).ok())
+            }
+            _ => {
+                let found = self.text(bound.span).to_owned();
+                Err(self.error_at(bound.span, ParseErrorKind::Steps { least: least as u8, found }))
+            }
+        }
+    }
+
+    /// Operators that bind at least as tightly as `level`.
+    fn binary(&mut self, level: u8) -> Result<Node> {
+        let mut left = self.unary(level)?;
+        while let Some((operator, own)) = self.binary_operator()?.filter(|(_, own)| *own >= level) {
+            left = match operator {
+                Infix::Chain => self.chain(left, own)?,
+                Infix::Binary(operator) => {
+                    self.advance();
+                    // Only `=>` is read from the right.
+                    let next = if own == IMPLIES { own } else { own + 1 };
+                    let right = self.nested(|parser| parser.binary(next))?;
+                    let span = left.span.to(right.span);
+                    self.node(NodeKind::Binary(operator, Box::new(left), Box::new(right)), span)?
+                }
+            };
+        }
+        Ok(left)
+    }
+
+    /// `a & b & …` or `a | b | …` from the first operator on.
+    ///
+    /// Long chains are common, so they are lists: as trees they would be as deep as they are long.
+    fn chain(&mut self, first: Node, level: u8) -> Result<Node> {
+        let symbol = self.peek();
+        let start = first.span;
+        let mut operands = vec![first];
+        while self.peek() == symbol {
+            self.advance();
+            operands.push(self.nested(|parser| parser.binary(level + 1))?);
+        }
+        let span = start.to(operands.last().map_or(start, |last| last.span));
+        self.node(if level == AND { NodeKind::And(operands) } else { NodeKind::Or(operands) }, span)
+    }
+
+    fn binary_operator(&self) -> Result<Option<(Infix, u8)>> {
+        let TokenKind::Symbol(symbol) = self.peek() else { return Ok(None) };
+        let compare = |comparison| Infix::Binary(BinaryOperator::Compare(comparison));
+        Ok(Some(match symbol {
+            "=>" => (Infix::Binary(BinaryOperator::Implies), IMPLIES),
+            "<=>" => (Infix::Binary(BinaryOperator::Iff), IFF),
+            "|" => (Infix::Chain, OR),
+            "&" => (Infix::Chain, AND),
+            "=" => (compare(Comparison::Equal), EQUALITY),
+            "!=" => (compare(Comparison::NotEqual), EQUALITY),
+            "<" => (compare(Comparison::Less), RELATION),
+            "<=" => (compare(Comparison::LessEqual), RELATION),
+            ">" => (compare(Comparison::Greater), RELATION),
+            ">=" => (compare(Comparison::GreaterEqual), RELATION),
+            "+" => (Infix::Binary(BinaryOperator::Add), SUM),
+            "-" => (Infix::Binary(BinaryOperator::Subtract), SUM),
+            "*" => (Infix::Binary(BinaryOperator::Multiply), PRODUCT),
+            "/" => return Err(self.error(unsupported::DIVISION)),
+            "^" => return Err(self.error(unsupported::POWER)),
+            _ => return Ok(None),
+        }))
+    }
+
+    /// A prefix operator or an operand.
+    fn unary(&mut self, level: u8) -> Result<Node> {
+        let start = self.span();
+        match self.peek() {
+            TokenKind::Symbol("!") if level <= NOT => {
+                self.advance();
+                let operand = self.nested(|parser| parser.binary(NOT))?;
+                let span = start.to(operand.span);
+                self.node(NodeKind::Not(Box::new(operand)), span)
+            }
+            TokenKind::Symbol("!") => Err(self.unexpected("an operand (put the negation in parentheses)")),
+            TokenKind::Symbol("-") => {
+                self.advance();
+                let operand = self.nested(|parser| parser.binary(UNARY))?;
+                let span = start.to(operand.span);
+                self.node(NodeKind::Negate(Box::new(operand)), span)
+            }
+            _ => self.primary(),
+        }
+    }
+}
+
+/// An operator between two operands.
+enum Infix {
+    /// `&` or `|`.
+    Chain,
+    Binary(BinaryOperator),
+}
+
+/// The value of an expression without variables.
+fn constant(node: &Node) -> Option<i64> {
+    match &node.kind {
+        NodeKind::Integer(value) => Some(i64::from(*value)),
+        NodeKind::Negate(operand) => constant(operand)?.checked_neg(),
+        NodeKind::Binary(operator, left, right) => {
+            let (left, right) = (constant(left)?, constant(right)?);
+            match operator {
+                BinaryOperator::Add => left.checked_add(right),
+                BinaryOperator::Subtract => left.checked_sub(right),
+                BinaryOperator::Multiply => left.checked_mul(right),
+                _ => None,
+            }
+        }
+        _ => None,
+    }
+}
