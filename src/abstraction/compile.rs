@@ -12,7 +12,7 @@ use crate::imdp::{
 };
 use crate::partition::{CellId, CellKind};
 use crate::progress::Progress;
-use crate::property::{Objective, PathFormula, Property, Resolution, StateFormula};
+use crate::property::{PathFormula, Property, Resolution, StateFormula, Threshold, ThresholdComparison};
 use crate::spec::{Probabilities, Problem};
 use crate::statistics::{Allocation, BudgetError};
 use rayon::prelude::*;
@@ -251,11 +251,18 @@ fn outcome_states(
 /// `Pmaxmin=? [ !"failed" U<=k "reached" ]`, compared with the threshold if there is one.
 fn reach_avoid(problem: &Problem) -> Property {
     let path = PathFormula::Until {
-        left: StateFormula::Not(Box::new(StateFormula::Label("failed".into()))),
-        right: StateFormula::Label("reached".into()),
+        left: StateFormula::negation(StateFormula::label("failed")),
+        right: StateFormula::label("reached"),
         steps: problem.horizon,
     };
-    Property { objective: Objective { resolution: Resolution::Pmaxmin, path }, at_least: problem.threshold }
+    match &problem.threshold {
+        None => Property::value(Resolution::Pmaxmin, path),
+        Some(probability) => {
+            let comparison = ThresholdComparison::AtLeast;
+            let threshold = Threshold { comparison, probability: probability.clone() };
+            Property::verdict(Resolution::Pmaxmin, path, threshold)
+        }
+    }
 }
 
 fn warnings(problem: &Problem, blocked: usize) -> Vec<String> {

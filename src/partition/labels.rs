@@ -188,7 +188,7 @@ mod tests {
         let grid = Grid::new(&exact(&[0.0, 0.0]), &exact(&[3.0, 3.0]), &[3, 3]).unwrap();
         let left = region(&[0.9, f64::NEG_INFINITY], &[1.5, f64::INFINITY]);
         let right = region(&[1.5, 1.0], &[2.0, 2.5]);
-        assert_eq!(count(&grid, &[left.clone()], &[]), (0, 0));
+        assert_eq!(count(&grid, std::slice::from_ref(&left), &[]), (0, 0));
         assert_eq!(count(&grid, &[left.clone(), right.clone()], &[]), (1, 0));
         assert_eq!(count(&grid, &[right, left], &[]), (1, 0));
     }

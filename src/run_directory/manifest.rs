@@ -4,6 +4,7 @@ use super::hashing::sha256_hex;
 use crate::abstraction::Abstraction;
 use crate::formats::prism::RAISED_LOWER_BOUND;
 use crate::numeric::{Rational, from_decimal, to_f64};
+use crate::property::Probability;
 use crate::spec::{Document, Problem};
 use crate::statistics::Allocation;
 use num_traits::One;
@@ -152,7 +153,7 @@ impl Manifest {
                 .map(|steps| GroupedHorizon { model_steps: steps, original_steps: steps * d }),
             group_steps: d,
             property: abstraction.property.to_string(),
-            threshold: problem.threshold,
+            threshold: problem.threshold.as_ref().map(Probability::to_f64),
             initial_state: problem.initial_state.clone(),
             initial_model_state: problem.initial_cell.map(|cell| abstraction.state_of_cell[cell.index()]),
             stabilizer: LayerReport::new(problem),

@@ -9,6 +9,7 @@ use crate::dynamics::{LinearSystem, group, smallest_group};
 use crate::geometry::Polytope;
 use crate::numeric::{ExactMatrix, Rational, from_decimal, to_f64};
 use crate::partition::{CellId, CellLabels, Grid, Region};
+use crate::property::Probability;
 use num_traits::{One, Zero};
 
 /// A validated control problem: everything that can be said before cells and samples meet.
@@ -41,7 +42,7 @@ pub struct Problem {
     /// The number of grouped steps, or `None` for an unbounded task.
     pub horizon: Option<u64>,
     /// The probability that is wanted.
-    pub threshold: Option<f64>,
+    pub threshold: Option<Probability>,
     /// The cell of the initial state, if one was given.
     pub initial_cell: Option<CellId>,
     /// The initial state, if one was given.
@@ -108,9 +109,7 @@ impl Problem {
                 "the unsafe region is checked every {group_steps} steps, at grouped instants only"
             ));
         }
-        if let Some(threshold) = file.task.threshold.filter(|t| !(0.0..=1.0).contains(t)) {
-            return Err(Diagnostic::at("/task/threshold", threshold.to_string(), "a probability in [0, 1]"));
-        }
+        let threshold = file.task.threshold.map(threshold).transpose()?;
         let initial_cell = match &file.initial_state {
             None => None,
             Some(x) => Some(initial_cell(x, &grid)?),
@@ -137,7 +136,7 @@ impl Problem {
             unsafe_: task.unsafe_,
             targets,
             horizon,
-            threshold: file.task.threshold,
+            threshold,
             initial_cell,
             initial_state: file.initial_state,
             probabilities,
@@ -210,6 +209,11 @@ fn horizon(horizon: Horizon, d: usize, warnings: &mut Vec<String>) -> Result<Opt
         ));
     }
     Ok(Some(grouped))
+}
+
+fn threshold(threshold: f64) -> Result<Probability, Diagnostic> {
+    Probability::from_f64(threshold)
+        .map_err(|_| Diagnostic::at("/task/threshold", threshold.to_string(), "a probability in [0, 1]"))
 }
 
 fn initial_cell(x: &[f64], grid: &Grid) -> Result<CellId, Diagnostic> {

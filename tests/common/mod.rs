@@ -1,0 +1,81 @@
+//! What integration tests share.
+#![allow(dead_code)]
+
+use dynabs::abstraction::{Abstraction, compile};
+use dynabs::spec::{Diagnostic, Document, Problem};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The root of the repository.
+pub fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// A shipped model after some `--set` arguments.
+pub fn document(model: &str, sets: &[String]) -> Document {
+    let path = root().join("models").join(format!("{model}.json"));
+    let text = fs::read_to_string(&path).unwrap();
+    let mut document = Document::parse(&path, &text).unwrap();
+    for set in sets {
+        document.set(&set.parse().unwrap()).unwrap();
+    }
+    document
+}
+
+/// A shipped model, validated.
+pub fn problem(model: &str, sets: &[String]) -> Result<Problem, Diagnostic> {
+    Problem::from_document(&document(model, sets))
+}
+
+/// A shipped model, abstracted.
+pub fn abstraction(model: &str, sets: &[String]) -> Abstraction {
+    compile(&problem(model, sets).unwrap(), &()).unwrap()
+}
+
+/// A file of numbers to reproduce.
+pub fn data(name: &str) -> Value {
+    let path = root().join("tests/data").join(name);
+    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+}
+
+/// `--set` for `reference` mode.
+pub fn reference_mode() -> String {
+    r#"/probabilities={"mode":"reference","beta_per_interval":0.01}"#.into()
+}
+
+/// Every shipped model, by name.
+pub fn shipped_models() -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(root().join("models"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| is_model(path))
+        .map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+fn is_model(path: &Path) -> bool {
+    let name = path.file_name().unwrap().to_str().unwrap();
+    name.ends_with(".json") && !name.ends_with(".schema.json")
+}
+
+/// The `--set` arguments that make row `row` of Table I out of a double integrator model.
+pub fn table_one_row(row: &Value) -> (&'static str, Vec<String>) {
+    let half_width = |text: &str| -> f64 {
+        text.trim_start_matches("[-").split(',').next().unwrap().parse().unwrap()
+    };
+    let input = half_width(row["input"].as_str().unwrap());
+    let mut sets = vec![format!(r#"/input={{"lower":[-{input}],"upper":[{input}]}}"#)];
+    match row["abstract_input"].as_str() {
+        None => ("double_integrator", sets),
+        Some(text) => {
+            let u = half_width(text);
+            sets.push(format!(
+                r#"/stabilizer/abstract_input={{"lower":[-{u},-{u}],"upper":[{u},{u}]}}"#
+            ));
+            ("double_integrator_two_layer", sets)
+        }
+    }
+}
