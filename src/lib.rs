@@ -1,5 +1,6 @@
 //! From a noisy linear control system to a controller with a proof.
 pub mod dynamics;
+pub mod formats;
 pub mod geometry;
 pub mod imdp;
 pub mod noise;
