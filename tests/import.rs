@@ -287,6 +287,17 @@ fn long_files_are_read_like_short_ones() {
     assert_refused("long", import_texts(&wrong, None, lab), "m.tra:304010:9", &["`x`"]);
 }
 
+#[test]
+fn a_choice_may_be_longer_than_a_chunk() {
+    let width = 100_000;
+    let mut tra = format!("{width} 2 {}\n", width + 1);
+    (0..width).rev().for_each(|to| tra += &format!("0 0 {to} [0.0,0.00002]\n"));
+    tra += "7 0 7 1\n";
+    let model = import_texts(&tra, None, "0=\"init\"\n0: 0\n").unwrap().model;
+    assert_eq!(model.rows().row(0).len(), width);
+    assert!(model.choices().is_absorbing(7) && model.choices().is_deadlock(8));
+}
+
 type Transitions = BTreeMap<(u32, u64, u32), (f64, f64)>;
 
 /// Reads transitions the obvious way, without checks.

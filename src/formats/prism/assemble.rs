@@ -74,7 +74,8 @@ impl<'a> Assembler<'a> {
             rows: Rows::new(),
             capacity: 0,
             table: RowTable::default(),
-            choices: ChoicesBuilder::with_capacity(header.states as usize),
+            // States without transitions are believed when they are reached.
+            choices: ChoicesBuilder::with_capacity(header.states.min(header.transitions) as usize),
             num_choices: 0,
             num_transitions: 0,
             lines_before: header.line + 1,

@@ -45,7 +45,9 @@ pub(super) fn judge<'a>(
 ) -> Result<Judgement, NoDistribution> {
     let written = || lines.split(|&byte| byte == b'\n').filter_map(|line| written_bounds(line, field));
     let lower = ExactSum::of(written().map(|(lower, _)| lower));
-    let upper = ExactSum::of(written().map(|(_, upper)| upper));
+    // A plain number is both bounds.
+    let plain = written().all(|(lower, upper)| lower == upper);
+    let upper = if plain { lower.clone() } else { ExactSum::of(written().map(|(_, upper)| upper)) };
     let lower_misses = lower.cmp_one() == Ordering::Greater;
     let upper_misses = upper.cmp_one() == Ordering::Less;
     if lower_misses && !lower.is_nearly_one() {
@@ -74,7 +76,9 @@ pub(super) fn judge<'a>(
 
 /// The texts of the bounds in a line that has been parsed before.
 fn written_bounds(line: &[u8], field: usize) -> Option<(&[u8], &[u8])> {
-    let interval = line.split(|byte| matches!(byte, b' ' | b'\r')).nth(field)?;
+    let start = line.iter().enumerate().filter(|(_, byte)| **byte == b' ').nth(field - 1)?.0 + 1;
+    let length = line[start..].iter().position(|byte| matches!(byte, b' ' | b'\r'));
+    let interval = &line[start..length.map_or(line.len(), |length| start + length)];
     let Some(inside) = interval.strip_prefix(b"[").and_then(|rest| rest.strip_suffix(b"]")) else {
         return Some((interval, interval));
     };

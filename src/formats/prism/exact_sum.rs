@@ -9,7 +9,7 @@ const LIMB: u128 = 10u128.pow(DIGITS as u32);
 /// The exact sum of non-negative decimals, each of them a little above 1 at most.
 ///
 /// `limbs[j]` counts units of `10^(−18 (j + 1))`; carries are settled once, at the end.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct ExactSum {
     whole: u128,
     limbs: Vec<u128>,
@@ -27,6 +27,14 @@ impl ExactSum {
     }
 
     fn add(&mut self, decimal: &[u8]) {
+        if let Some((whole, fraction)) = read_short(decimal) {
+            self.whole += whole;
+            if self.limbs.is_empty() {
+                self.limbs.push(0);
+            }
+            self.limbs[0] += fraction;
+            return;
+        }
         let exponent_at = decimal.iter().position(|byte| matches!(byte, b'e' | b'E'));
         let (mantissa, exponent) = decimal.split_at(exponent_at.unwrap_or(decimal.len()));
         let exponent = exponent.get(1..).map_or(0, read_exponent);
@@ -115,6 +123,25 @@ impl ExactSum {
     }
 }
 
+/// Reads a decimal like `0.25` whose fraction fits into one limb: the digit before the point and the limb.
+fn read_short(decimal: &[u8]) -> Option<(u128, u128)> {
+    let (whole, fraction) = match *decimal {
+        [whole] => (whole, &[] as &[u8]),
+        [whole, b'.', ref fraction @ ..] if fraction.len() <= DIGITS => (whole, fraction),
+        _ => return None,
+    };
+    let mut limb = 0u64;
+    for digit in fraction {
+        // Most likely an exponent.
+        if !digit.is_ascii_digit() {
+            return None;
+        }
+        limb = limb * 10 + u64::from(digit - b'0');
+    }
+    let unit = 10u64.pow((DIGITS - fraction.len()) as u32);
+    Some((u128::from(whole - b'0'), u128::from(limb * unit)))
+}
+
 /// Reads the digits of an exponent and its sign, saturating.
 fn read_exponent(text: &[u8]) -> i64 {
     let magnitude = text
@@ -127,6 +154,8 @@ fn read_exponent(text: &[u8]) -> i64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numeric::{Rational, from_decimal};
+    use proptest::prelude::*;
 
     fn sum(decimals: &[&str]) -> ExactSum {
         ExactSum::of(decimals.iter().map(|text| text.as_bytes()))
@@ -139,6 +168,8 @@ mod tests {
         assert_eq!(sum(&["10e-1", "5e-324"]).cmp_one(), Ordering::Greater);
         assert_eq!(sum(&["0.99999999999999999999999999"]).cmp_one(), Ordering::Less);
         assert_eq!(sum(&["0.0001e4"]).to_text(), "1");
+        assert_eq!(sum(&["0.999999999999999999", "0.000000000000000001"]).cmp_one(), Ordering::Equal);
+        assert_eq!(sum(&["0.999999999999999999", "0.0000000000000000010"]).cmp_one(), Ordering::Equal);
         assert_eq!(sum(&["0.25", "0.0000000000000000000000001"]).to_text(), "0.2500000000000000000000001");
     }
 
@@ -151,6 +182,23 @@ mod tests {
         assert_eq!(sum(&["0.999999999"]).distance_from_one(), 1e-9);
         assert_eq!(sum(&["1.000000000000000000000001"]).distance_from_one(), 1e-24);
         assert_eq!(sum(&["0.6"]).distance_from_one(), 0.4);
+    }
+
+    proptest! {
+        #[test]
+        fn sums_agree_with_rationals(values in prop::collection::vec(0.0f64..0.1, 1..30)) {
+            let exact: Rational = values.iter().map(|&x| from_decimal(x).unwrap()).sum();
+            let one = from_decimal(1.0).unwrap();
+            for texts in [
+                values.iter().map(|x| format!("{x}")).collect::<Vec<_>>(),
+                values.iter().map(|x| format!("{x:e}")).collect(),
+            ] {
+                let sum = ExactSum::of(texts.iter().map(|text| text.as_bytes()));
+                prop_assert_eq!(sum.cmp_one(), exact.cmp(&one));
+                let distance = crate::numeric::to_f64(&(&exact - &one)).abs();
+                prop_assert!((sum.distance_from_one() - distance).abs() <= 1e-15 * distance);
+            }
+        }
     }
 
     #[test]

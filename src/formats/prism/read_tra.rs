@@ -18,6 +18,9 @@ use crate::imdp::{ModelKind, StateId};
 /// How many chunks are in flight per thread.
 const LOOK_AHEAD: usize = 4;
 
+/// How many chunks are in flight at most, however many threads there are: memory is bounded.
+const MOST_IN_FLIGHT: usize = 64;
+
 /// The shortest transition with its line end, `0 0 1`.
 const SHORTEST_LINE: u64 = 6;
 
@@ -29,10 +32,14 @@ pub(super) fn read_tra(
     let io = |error| ImportError::io(path, error);
     let file = File::open(path).map_err(io)?;
     let metadata = file.metadata().map_err(io)?;
+    if !metadata.is_file() {
+        return Err(io(std::io::Error::other("it is not a regular file")));
+    }
     let mut lines = Lines::new(path, BufReader::new(file));
     let (kind, header) = read_header(&mut lines)?;
-    if metadata.is_file() && header.transitions > (metadata.len() + 1) / SHORTEST_LINE {
-        let fits = (metadata.len() + 1) / SHORTEST_LINE;
+    // A header that lies must not decide how much is allocated.
+    let fits = (metadata.len() + 1) / SHORTEST_LINE;
+    if header.transitions > fits {
         let expected = format!("at most {fits} transitions in a file of {} bytes", metadata.len());
         return Err(lines.refuse(1, expected, header.transitions.to_string()));
     }
@@ -40,7 +47,7 @@ pub(super) fn read_tra(
     let mut assembler = Assembler::new(path, header)?;
     let bytes_read = lines.bytes_read();
     let mut reader = ChunkReader::new(lines.into_inner(), shape.key_fields(), bytes_read);
-    let in_flight = LOOK_AHEAD * rayon::current_num_threads();
+    let in_flight = (LOOK_AHEAD * rayon::current_num_threads()).min(MOST_IN_FLIGHT);
     let mut texts = reader.batch(in_flight).map_err(io)?;
     let mut parsed = vec![];
     while !texts.is_empty() || !parsed.is_empty() {
