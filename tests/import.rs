@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use dynabs::formats::prism::{ImportError, Imported, Warning, import};
-use dynabs::imdp::{ActionNames, IntervalMdp, ModelKind, RowRange, VariableValues};
+use dynabs::formats::prism::{ImportError, Imported, Warning, import, import_with_progress};
+use dynabs::imdp::{ActionNames, IntervalMdp, ModelKind, RowRange, StateVariable, VariableValues};
 use proptest::prelude::*;
 
 const TRA: &str = "3 3 4\n0 0 1 [0.2,0.8] a\n0 0 2 [0.2,0.8] a\n1 0 1 [1,1] b\n2 0 2 [1,1]\n";
@@ -288,6 +288,14 @@ fn long_files_are_read_like_short_ones() {
 }
 
 #[test]
+fn progress_ends_with_the_file() {
+    let files = Files::new(TRA.as_bytes(), None, LAB.as_bytes());
+    let mut seen = 0;
+    import_with_progress(&files.tra(), None, None, &mut |bytes| seen = bytes).unwrap();
+    assert_eq!(seen, TRA.len() as u64);
+}
+
+#[test]
 fn a_choice_may_be_longer_than_a_chunk() {
     let width = 100_000;
     let mut tra = format!("{width} 2 {}\n", width + 1);
@@ -331,6 +339,47 @@ fn transitions_of(model: &IntervalMdp) -> Transitions {
     transitions
 }
 
+/// Reads the labels of every state the obvious way, `init` among them.
+fn slow_labels(text: &str) -> BTreeMap<usize, Vec<String>> {
+    let mut lines = text.lines();
+    let header = lines.next().unwrap().split(' ');
+    let names: Vec<&str> = header.map(|entry| entry.split('"').nth(1).unwrap()).collect();
+    let parse = |line: &str| {
+        let (state, labels) = line.split_once(": ").unwrap();
+        let mut labels: Vec<String> =
+            labels.split(' ').map(|label| names[label.parse::<usize>().unwrap()].to_owned()).collect();
+        labels.sort();
+        (state.parse().unwrap(), labels)
+    };
+    lines.filter(|line| !line.is_empty()).map(parse).collect()
+}
+
+fn labels_of(model: &IntervalMdp) -> BTreeMap<usize, Vec<String>> {
+    let mut labels: BTreeMap<usize, Vec<String>> = BTreeMap::new();
+    let initial = model.initial();
+    for (name, set) in model.labels().iter().chain([("init", initial)]) {
+        set.ones().for_each(|state| labels.entry(state).or_default().push(name.to_owned()));
+    }
+    labels.values_mut().for_each(|names| names.sort());
+    labels
+}
+
+/// Writes the variables back as a state file.
+fn states_of(model: &IntervalMdp) -> String {
+    let variables = model.variables();
+    let names: Vec<&str> = variables.iter().map(|variable| variable.name.as_str()).collect();
+    let mut text = format!("({})\n", names.join(","));
+    for state in 0..model.num_states() as u32 {
+        let value = |variable: &StateVariable| {
+            let mut text = String::new();
+            variable.write_value(state, &mut text).unwrap();
+            text
+        };
+        text += &format!("{state}:({})\n", variables.iter().map(value).collect::<Vec<_>>().join(","));
+    }
+    text
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
@@ -354,8 +403,11 @@ proptest! {
         if let Ok(Imported { model, warnings }) = outcome
             && !warnings.iter().any(|warning| matches!(warning, Warning::Widened { .. }))
         {
-            let text = String::from_utf8(texts[0].clone()).unwrap();
-            prop_assert_eq!(transitions_of(&model), slow_transitions(&text));
+            let [tra, sta, lab] = texts.map(|text| String::from_utf8(text).unwrap().replace('\r', ""));
+            prop_assert_eq!(transitions_of(&model), slow_transitions(&tra));
+            let states = states_of(&model);
+            prop_assert_eq!(states.trim_end(), sta.trim_end().replace("-0", "0"));
+            prop_assert_eq!(labels_of(&model), slow_labels(&lab));
         }
     }
 }
