@@ -1,3 +1,4 @@
 //! File formats of interval MDPs.
 
+pub mod native;
 pub mod prism;

@@ -35,7 +35,7 @@ pub struct Parts {
 pub enum ModelKind {
     /// An interval MDP: a policy picks choices, nature picks distributions.
     Imdp,
-    /// An interval DTMC: nature only. Every state has exactly one choice.
+    /// An interval DTMC: nature only. Every state has exactly one choice, or none if it is a deadlock.
     Idtmc,
 }
 
@@ -117,6 +117,32 @@ pub enum ImdpError {
         /// The number of states.
         states: usize,
     },
+    /// A state of an interval DTMC has a choice to make.
+    #[error("state {state} has {found} choices, states of an interval DTMC have one")]
+    Chain {
+        /// The state.
+        state: StateId,
+        /// How many choices it has.
+        found: usize,
+    },
+    /// The names of choices are not one for each choice.
+    #[error("{found} choices have an entry for their action, the model has {choices}")]
+    ActionCount {
+        /// How many entries there are.
+        found: usize,
+        /// The number of choices.
+        choices: u64,
+    },
+    /// A choice has an action that does not exist.
+    #[error("choice {choice} has action {id}, but there are only {names} names")]
+    Action {
+        /// The choice, counted over all states.
+        choice: usize,
+        /// The index that dangles.
+        id: u32,
+        /// The number of names.
+        names: usize,
+    },
     /// There is no initial state.
     #[error("there is no initial state")]
     NoInitialState,
@@ -137,11 +163,16 @@ impl IntervalMdp {
         }
         let rows = parts.rows.len();
         for state in 0..states as StateId {
+            let found = parts.choices.ranges(state).iter().map(|range| range.len()).sum();
+            if parts.kind == ModelKind::Idtmc && found > 1 {
+                return Err(ImdpError::Chain { state, found });
+            }
             if let Some(range) = parts.choices.ranges(state).iter().find(|range| range.last as usize >= rows)
             {
                 return Err(ImdpError::Choice { state, row: range.last, rows });
             }
         }
+        validate_actions(&parts.actions, parts.choices.num_choices())?;
         let sets = parts.labels.iter().map(|(name, set)| (format!("label \"{name}\""), set.len()));
         let variables = parts.variables.iter().map(|v| (format!("variable {}", v.name), v.num_states()));
         let initial = std::iter::once(("the initial states".to_owned(), parts.initial.len()));
@@ -198,6 +229,20 @@ impl IntervalMdp {
     /// The variables of the states.
     pub fn variables(&self) -> &StateVariables {
         &self.parts.variables
+    }
+}
+
+fn validate_actions(actions: &ActionNames, choices: u64) -> Result<(), ImdpError> {
+    let ActionNames::OfChoice { names, ids } = actions else {
+        return Ok(());
+    };
+    if ids.len() as u64 != choices {
+        return Err(ImdpError::ActionCount { found: ids.len(), choices });
+    }
+    let dangles = |id: u32| id != ActionNames::UNNAMED && id as usize >= names.len();
+    match ids.iter().position(|&id| dangles(id)) {
+        Some(choice) => Err(ImdpError::Action { choice, id: ids[choice], names: names.len() }),
+        None => Ok(()),
     }
 }
 

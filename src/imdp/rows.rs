@@ -134,6 +134,26 @@ impl Rows {
         }
     }
 
+    /// The rows of these lengths, their entries one after the other.
+    ///
+    /// `None` unless the lengths sum to the length of each column.
+    pub fn from_columns(
+        lengths: impl ExactSizeIterator<Item = u32>,
+        successors: Vec<StateId>,
+        lower: Vec<f64>,
+        upper: Vec<f64>,
+    ) -> Option<Self> {
+        let mut starts = Vec::with_capacity(lengths.len() + 1);
+        let mut end = 0usize;
+        starts.push(end);
+        for length in lengths {
+            end = end.checked_add(length as usize)?;
+            starts.push(end);
+        }
+        let consistent = [successors.len(), lower.len(), upper.len()] == [end; 3];
+        consistent.then_some(Self { starts, successors, lower, upper })
+    }
+
     /// Adds `lower ≤ p(successor) ≤ upper` to the row under construction.
     pub fn push_entry(&mut self, successor: StateId, lower: f64, upper: f64) {
         self.successors.push(successor);
@@ -145,6 +165,29 @@ impl Rows {
     pub fn finish_row(&mut self) -> RowId {
         self.starts.push(self.successors.len());
         (self.starts.len() - 2) as RowId
+    }
+
+    /// Adds a copy of a row and returns its id.
+    pub fn push_row(&mut self, row: Row<'_>) -> RowId {
+        self.successors.extend_from_slice(row.successors);
+        self.lower.extend_from_slice(row.lower);
+        self.upper.extend_from_slice(row.upper);
+        self.finish_row()
+    }
+
+    /// Makes room for this many more entries, without room to spare.
+    pub fn reserve_exact(&mut self, entries: usize) {
+        self.successors.reserve_exact(entries);
+        self.lower.reserve_exact(entries);
+        self.upper.reserve_exact(entries);
+    }
+
+    /// Gives back the room that is not used.
+    pub fn shrink_to_fit(&mut self) {
+        self.starts.shrink_to_fit();
+        self.successors.shrink_to_fit();
+        self.lower.shrink_to_fit();
+        self.upper.shrink_to_fit();
     }
 
     /// Appends the rows of `other`, renumbered to follow these.

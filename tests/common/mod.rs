@@ -63,18 +63,15 @@ fn is_model(path: &Path) -> bool {
 
 /// The `--set` arguments that make row `row` of Table I out of a double integrator model.
 pub fn table_one_row(row: &Value) -> (&'static str, Vec<String>) {
-    let half_width = |text: &str| -> f64 {
-        text.trim_start_matches("[-").split(',').next().unwrap().parse().unwrap()
-    };
+    let half_width =
+        |text: &str| -> f64 { text.trim_start_matches("[-").split(',').next().unwrap().parse().unwrap() };
     let input = half_width(row["input"].as_str().unwrap());
     let mut sets = vec![format!(r#"/input={{"lower":[-{input}],"upper":[{input}]}}"#)];
     match row["abstract_input"].as_str() {
         None => ("double_integrator", sets),
         Some(text) => {
             let u = half_width(text);
-            sets.push(format!(
-                r#"/stabilizer/abstract_input={{"lower":[-{u},-{u}],"upper":[{u},{u}]}}"#
-            ));
+            sets.push(format!(r#"/stabilizer/abstract_input={{"lower":[-{u},-{u}],"upper":[{u},{u}]}}"#));
             ("double_integrator_two_layer", sets)
         }
     }

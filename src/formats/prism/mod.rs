@@ -1,9 +1,12 @@
-//! PRISM's explicit format: `.tra`, `.sta`, `.lab`.
+//! PRISM's explicit files: transitions (`.tra`), states (`.sta`) and labels (`.lab`).
+//!
+//! Reading is strict: what PRISM lets pass silently (intervals that admit no distribution, probabilities
+//! above 1, duplicate destinations, wrong counts) is refused with file, line and column. Equal rows are
+//! shared while reading, so memory follows the distinct rows and not the transitions. Writing streams every
+//! transition from the shared rows.
 
-mod write_lab;
-mod write_sta;
-mod write_tra;
+mod read;
+mod write;
 
-pub use write_lab::write_lab;
-pub use write_sta::write_sta;
-pub use write_tra::{MAX_COUNT, RAISED_LOWER_BOUND, TraWriter};
+pub use read::{ImportError, Imported, Position, Warning, import, import_with_progress};
+pub use write::{MAX_COUNT, RAISED_LOWER_BOUND, TraWriter, write_lab, write_sta};

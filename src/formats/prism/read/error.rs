@@ -1,0 +1,131 @@
+//! What can be wrong with explicit files, and where.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use crate::imdp::{ImdpError, MemoryError, StateId};
+
+/// A place in a text file; lines and columns count from 1, columns in bytes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Position {
+    /// The file.
+    pub path: PathBuf,
+    /// The line.
+    pub line: u64,
+    /// The column.
+    pub column: u32,
+}
+
+impl fmt::Display for Position {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}:{}", self.path.display(), self.line, self.column)
+    }
+}
+
+/// Why explicit files were refused.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ImportError {
+    /// A file cannot be opened or read.
+    #[error("cannot read {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// There is no label file beside the transitions.
+    #[error("there is no {}: the initial states are read from a label file, name one", path.display())]
+    NoLabelFile {
+        /// Where it was looked for.
+        path: PathBuf,
+    },
+    /// The text is not what the format wants.
+    #[error("{at}: expected {expected}, found {found}")]
+    Refused {
+        /// Where.
+        at: Position,
+        /// What should be there.
+        expected: String,
+        /// What is there.
+        found: String,
+    },
+    /// The model does not fit into memory.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
+    /// The parts do not make an interval MDP.
+    #[error("the files do not describe an interval MDP: {0}")]
+    Model(#[from] ImdpError),
+}
+
+impl ImportError {
+    /// Wraps an error of the system about a file.
+    pub(super) fn io(path: &Path, source: std::io::Error) -> Self {
+        Self::Io { path: path.to_owned(), source }
+    }
+}
+
+/// What was accepted although it deserves a look.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// Lower bounds that sum to more than 1, or upper bounds that sum to less, by at most 1e-9.
+    ///
+    /// They were widened outwards until a distribution fits: every distribution that was meant is kept.
+    Widened {
+        /// How many choices.
+        count: u64,
+        /// The first of them.
+        first: Position,
+    },
+    /// States without any choice, treated as absorbing.
+    Deadlocks {
+        /// How many states.
+        count: u64,
+        /// The first of them.
+        first: StateId,
+    },
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Widened { count, first } => write!(
+                f,
+                "{count} choice(s) admit no distribution by at most 1e-9 and were widened, the first at {first}"
+            ),
+            Self::Deadlocks { count, first } => {
+                write!(
+                    f,
+                    "{count} state(s) have no choice and are treated as absorbing, the first is {first}"
+                )
+            }
+        }
+    }
+}
+
+/// A refusal within one file, or within one chunk of it: lines count from the start of that part.
+#[derive(Debug)]
+pub(super) struct Fault {
+    /// The line, from 0.
+    pub line: u64,
+    /// The column, from 1.
+    pub column: u32,
+    /// What should be there.
+    pub expected: String,
+    /// What is there.
+    pub found: String,
+}
+
+impl Fault {
+    /// A boxed fault, so that results stay small.
+    pub fn new(line: u64, column: usize, expected: impl Into<String>, found: impl Into<String>) -> Box<Self> {
+        Box::new(Self { line, column: column as u32, expected: expected.into(), found: found.into() })
+    }
+
+    /// The error, for a fault in a part of `path` that starts after `lines_before` lines.
+    pub fn in_file(self, path: &Path, lines_before: u64) -> ImportError {
+        let at = Position { path: path.to_owned(), line: lines_before + self.line + 1, column: self.column };
+        ImportError::Refused { at, expected: self.expected, found: self.found }
+    }
+}

@@ -1,0 +1,118 @@
+//! States: `(v1,v2)`, then `0:(3,true)` for every state in order.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use super::error::{Fault, ImportError};
+use super::lines::Lines;
+use super::text::Cursor;
+use crate::imdp::{StateSet, StateVariables, VariableValues, require_memory};
+
+/// Reads a `.sta` file for a model of `states` states.
+pub(super) fn read_sta(path: &Path, states: u64) -> Result<StateVariables, ImportError> {
+    let file = File::open(path).map_err(|error| ImportError::io(path, error))?;
+    let mut lines = Lines::new(path, BufReader::new(file));
+    let Some(mut cursor) = lines.next()? else {
+        return Err(lines.refuse(
+            1,
+            "a header with the names of the variables, `(x,y)`",
+            "the end of the file",
+        ));
+    };
+    let header = read_names(&mut cursor);
+    let names = header.map_err(|fault| lines.place(*fault))?;
+    require_memory(format!("{} variables", names.len()), states.saturating_mul(4 * names.len() as u64))?;
+    let mut columns: Vec<VariableValues> = vec![];
+    for state in 0..states {
+        let Some(mut cursor) = lines.next()? else {
+            return Err(lines.refuse(1, format!("state {state} in a further line"), "the end of the file"));
+        };
+        let outcome = read_state(&mut cursor, state, states, names.len(), &mut columns);
+        outcome.map_err(|fault| lines.place(*fault))?;
+    }
+    if let Some(cursor) = lines.next()? {
+        let fault = cursor.fault_here(format!("no state after {}, the last one", states - 1));
+        return Err(lines.place(*fault));
+    }
+    let mut variables = StateVariables::default();
+    for (name, values) in names.into_iter().zip(columns) {
+        variables.push(name, values);
+    }
+    Ok(variables)
+}
+
+fn read_names(cursor: &mut Cursor<'_>) -> Result<Vec<String>, Box<Fault>> {
+    let mut names: Vec<String> = vec![];
+    cursor.expect(b'(', "`(` and the names of the variables")?;
+    while names.is_empty() || !cursor.skip(b")") {
+        if !names.is_empty() {
+            cursor.expect(b',', "`,` or `)`")?;
+        }
+        let start = cursor.offset();
+        let name = cursor.identifier("the name of a variable")?;
+        if names.iter().any(|earlier| earlier == name) {
+            return Err(cursor.fault_at(start, "every variable once"));
+        }
+        names.push(name.to_owned());
+    }
+    cursor.line_end("the end of the line")?;
+    Ok(names)
+}
+
+fn read_state(
+    cursor: &mut Cursor<'_>,
+    state: u64,
+    states: u64,
+    variables: usize,
+    columns: &mut Vec<VariableValues>,
+) -> Result<(), Box<Fault>> {
+    let expected = "the number of a state";
+    if cursor.unsigned(expected)? != state {
+        return Err(cursor.fault_at(0, format!("state {state}")));
+    }
+    cursor.expect(b':', "`:`")?;
+    for variable in 0..variables {
+        match variable {
+            0 => cursor.expect(b'(', "`(`")?,
+            _ => cursor.expect(b',', "`,` and the value of the next variable")?,
+        }
+        if state == 0 {
+            columns.push(new_column(cursor, states as usize));
+        }
+        push_value(cursor, state as usize, &mut columns[variable])?;
+    }
+    cursor.expect(b')', "`)` after the last variable")?;
+    cursor.line_end("the end of the line")
+}
+
+/// The first value decides what a variable is.
+fn new_column(cursor: &Cursor<'_>, states: usize) -> VariableValues {
+    match cursor.peek() {
+        b't' | b'f' => VariableValues::Bool(StateSet::with_capacity(states)),
+        _ => VariableValues::Int(Vec::with_capacity(states)),
+    }
+}
+
+fn push_value(cursor: &mut Cursor<'_>, state: usize, column: &mut VariableValues) -> Result<(), Box<Fault>> {
+    match column {
+        VariableValues::Bool(set) => {
+            if cursor.skip(b"true") {
+                set.insert(state);
+            } else if !cursor.skip(b"false") {
+                return Err(cursor.fault_here("`true` or `false`"));
+            }
+        }
+        VariableValues::Int(values) => {
+            let start = cursor.offset();
+            let negative = cursor.skip(b"-");
+            let magnitude = cursor.unsigned("an integer")?;
+            let value =
+                i64::try_from(magnitude).map_or(i64::MAX, |value| if negative { -value } else { value });
+            let value = i32::try_from(value)
+                .map_err(|_| cursor.fault_at(start, format!("between {} and {}", i32::MIN, i32::MAX)))?;
+            values.push(value);
+        }
+    }
+    Ok(())
+}
