@@ -23,3 +23,32 @@ pub const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 pub fn rounding_factor(operations: usize) -> f64 {
     2.0 * operations as f64 * UNIT_ROUNDOFF
 }
+
+/// The largest double that is at most `1 − x`, for `0 ≤ x ≤ 1`.
+pub fn one_minus_down(x: f64) -> f64 {
+    let rounded = 1.0 - x;
+    // 1 − rounded is exact: for rounded ≥ ½ by Sterbenz, and below that rounded is exact itself.
+    if 1.0 - rounded < x { rounded.next_down() } else { rounded }
+}
+
+/// The smallest double that is at least `1 − x`, for `0 ≤ x ≤ 1`.
+pub fn one_minus_up(x: f64) -> f64 {
+    let rounded = 1.0 - x;
+    if 1.0 - rounded > x { rounded.next_up() } else { rounded }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_traits::One;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn complements_enclose_tightly(x in prop_oneof![0.0f64..=1.0, 0.0f64..1e-15]) {
+            let exact = Rational::one() - from_dyadic(x).unwrap();
+            prop_assert_eq!(one_minus_down(x), to_f64_down(&exact));
+            prop_assert_eq!(one_minus_up(x), to_f64_up(&exact));
+        }
+    }
+}

@@ -3,6 +3,7 @@
 use super::evaluate::{all_states, complement};
 use super::{Objective, PathFormula, PropertyError, Resolution};
 use crate::imdp::{IntervalMdp, StateSet};
+use crate::numeric::{one_minus_down, one_minus_up};
 
 /// A value to compute: the probability of an event, or 1 minus it.
 ///
@@ -72,25 +73,6 @@ impl Query {
         }
         (one_minus_down(upper), one_minus_up(lower))
     }
-}
-
-/// `1 − x` rounded down, for `x` in `[0, 1]`.
-fn one_minus_down(x: f64) -> f64 {
-    let nearest = 1.0 - x;
-    if is_one_minus(nearest, x) { nearest } else { nearest.next_down() }
-}
-
-/// `1 − x` rounded up, for `x` in `[0, 1]`.
-fn one_minus_up(x: f64) -> f64 {
-    let nearest = 1.0 - x;
-    if is_one_minus(nearest, x) { nearest } else { nearest.next_up().min(1.0) }
-}
-
-/// Whether `nearest`, the double nearest to `1 − x`, is `1 − x`.
-///
-/// One of the two is at least 1/2, and its difference from 1 is exact by Sterbenz' lemma.
-fn is_one_minus(nearest: f64, x: f64) -> bool {
-    1.0 - nearest == x
 }
 
 fn reach(goal: StateSet, steps: Option<u64>, model: &IntervalMdp) -> QueryKind {

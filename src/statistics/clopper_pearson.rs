@@ -1,6 +1,7 @@
 //! One-sided Clopper–Pearson bounds, rounded outwards.
 
 use super::binomial::{ln_lower_tail, ln_upper_tail};
+use crate::numeric::{one_minus_down, one_minus_up};
 
 /// Brackets end when they are this narrow, relative to their position.
 const PRECISION: f64 = 1e-14;
@@ -16,7 +17,7 @@ pub fn lower_bound(k: u64, n: u64, level: f64) -> f64 {
     if k == 0 || level.is_nan() || level <= 0.0 {
         0.0
     } else if 2 * k > n {
-        (1.0 - solve_upper(n - k, n, level)).next_down().max(0.0)
+        one_minus_down(solve_upper(n - k, n, level))
     } else {
         solve_lower(k, n, level)
     }
@@ -30,7 +31,7 @@ pub fn upper_bound(k: u64, n: u64, level: f64) -> f64 {
     if k == n || level.is_nan() || level <= 0.0 {
         1.0
     } else if 2 * k > n {
-        (1.0 - solve_lower(n - k, n, level)).next_up().min(1.0)
+        one_minus_up(solve_lower(n - k, n, level))
     } else {
         solve_upper(k, n, level)
     }
