@@ -6,4 +6,5 @@ pub mod noise;
 pub mod numeric;
 pub mod partition;
 pub mod property;
+pub mod solver;
 pub mod statistics;

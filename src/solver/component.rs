@@ -1,0 +1,167 @@
+//! A cyclic part of the model, everything it leads to being solved already.
+//!
+//! **Lower bound.** Iteration from 0, rounded down, which stays below the least fixpoint; sped up by
+//! extrapolation where that can be justified (`extrapolate`).
+//!
+//! **Upper bound.** Guess `U = L + δ`, and accept it only if the operator, rounded up, does not raise it:
+//! `T(U) ≤ U` implies that `U` is at least the least fixpoint (Knaster and Tarski), for every resolution
+//! and whatever led to the guess. In end components, where a maximising side can stay for ever, any common
+//! value reproduces itself; there the guess is made level, or it would never be accepted.
+
+use super::expectation::Side;
+use super::guess::level;
+use super::options::{Control, Status};
+use super::query::{Optimum, Players};
+use super::range_optimum::RangeOptimum;
+use super::sweep::Sweep;
+use crate::imdp::{IntervalMdp, RowId, StateId};
+
+/// The bounds of the whole model, as far as they are known.
+pub(super) struct Shared<'a> {
+    pub model: &'a IntervalMdp,
+    pub players: Players,
+    pub lower: Vec<f64>,
+    pub upper: Vec<f64>,
+    pub lower_rows: RangeOptimum,
+    pub upper_rows: RangeOptimum,
+    /// A maximising policy: the choice by which each state's lower bound was last improved.
+    pub choices: Vec<u32>,
+}
+
+/// The part being solved.
+pub(super) struct Component<'s, 'a> {
+    pub shared: &'s mut Shared<'a>,
+    pub sweep: Sweep<'a>,
+    /// By position in `sweep.states`: the last change of the lower bounds.
+    pub change: Vec<f64>,
+    results: Vec<f64>,
+}
+
+impl<'s, 'a> Component<'s, 'a> {
+    pub fn new(shared: &'s mut Shared<'a>, states: Vec<StateId>, rows: &[RowId]) -> Self {
+        shared.lower_rows.prepare(shared.model.choices(), &states);
+        shared.upper_rows.prepare(shared.model.choices(), &states);
+        let change = vec![0.0; states.len()];
+        let sweep = Sweep::new(shared.model, shared.players, states, rows);
+        Self { shared, sweep, change, results: vec![] }
+    }
+
+    /// Iterates until the bounds are at most `share` further apart than those of the successors.
+    ///
+    /// Returns why, if the computation must stop altogether.
+    pub fn solve(mut self, share: f64, control: &mut Control<'_>) -> Option<Status> {
+        let behind = self.gap_behind();
+        let mut margin = share;
+        let (mut rate, mut previous) = (0.0, 0.0);
+        let (mut next_guess, mut next_jump) = (1, 8);
+        for sweeps in 1u64.. {
+            if let Some(reason) = control.stop() {
+                return Some(reason);
+            }
+            let change = self.raise_lower();
+            control.done(self.gap());
+            if previous > 0.0 {
+                rate = change / previous;
+            }
+            previous = change;
+            if sweeps >= next_jump && change > 0.0 {
+                next_jump = sweeps + 4 + sweeps / 16;
+                self.extrapolate(rate);
+                previous = 0.0;
+            }
+            if sweeps >= next_guess || change == 0.0 {
+                next_guess = sweeps + 1 + sweeps / 4;
+                if self.guess(behind + margin) && (self.gap() <= behind + 2.0 * share || change == 0.0) {
+                    break;
+                }
+                if change == 0.0 {
+                    // Nothing will improve any more: settle for the tightest bound that can be verified.
+                    margin *= 4.0;
+                    if margin > 2.0 {
+                        break;
+                    }
+                }
+            }
+        }
+        self.evaluate_rows_finally();
+        None
+    }
+
+    /// How far apart the bounds of everything this part leads to are.
+    fn gap_behind(&self) -> f64 {
+        let shared = &self.shared;
+        let own: std::collections::HashSet<RowId> = self.sweep.rows().collect();
+        let inside = |s: &StateId| self.sweep.states.binary_search(s).is_ok();
+        let mut gap: f64 = 0.0;
+        for &row in &own {
+            for s in shared.model.rows().row(row).successors.iter().filter(|s| !inside(s)) {
+                gap = gap.max(shared.upper[*s as usize] - shared.lower[*s as usize]);
+            }
+        }
+        let rows = self.sweep.states.iter().flat_map(|&s| shared.model.choices().rows(s));
+        for row in rows.filter(|row| !own.contains(row)) {
+            let row = row as usize;
+            gap = gap.max(shared.upper_rows.values()[row] - shared.lower_rows.values()[row]);
+        }
+        gap
+    }
+
+    fn gap(&self) -> f64 {
+        let gap = |&s: &StateId| self.shared.upper[s as usize] - self.shared.lower[s as usize];
+        self.sweep.states.iter().map(gap).fold(0.0, f64::max)
+    }
+
+    /// `L := max(L, T(L))`; returns the largest change.
+    fn raise_lower(&mut self) -> f64 {
+        let shared = &mut *self.shared;
+        self.sweep.evaluate_rows(&shared.lower, Side::Lower, &mut shared.lower_rows);
+        self.sweep.evaluate_states(&shared.lower_rows, &mut self.results);
+        let mut largest: f64 = 0.0;
+        for (i, &s) in self.sweep.states.iter().enumerate() {
+            let change = (self.results[i] - shared.lower[s as usize]).max(0.0);
+            self.change[i] = change;
+            largest = largest.max(change);
+            if change > 0.0 {
+                shared.lower[s as usize] = self.results[i];
+                if shared.players.policy == Optimum::Max {
+                    shared.choose(s);
+                }
+            }
+        }
+        largest
+    }
+
+    /// Tries `U = L + margin`; returns whether it is an upper bound.
+    fn guess(&mut self, margin: f64) -> bool {
+        let states = self.sweep.states.clone();
+        let mut candidate: Vec<f64> =
+            states.iter().map(|&s| (self.shared.lower[s as usize] + margin).min(1.0)).collect();
+        level(self, &mut candidate);
+        let old: Vec<f64> = states.iter().map(|&s| self.shared.upper[s as usize]).collect();
+        let shared = &mut *self.shared;
+        // A rejected guess is improved a few times: applying the operator gives it the right shape.
+        for _ in 0..4 {
+            states.iter().zip(&candidate).for_each(|(&s, &u)| shared.upper[s as usize] = u);
+            self.sweep.evaluate_rows(&shared.upper, Side::Upper, &mut shared.upper_rows);
+            self.sweep.evaluate_states(&shared.upper_rows, &mut self.results);
+            let inductive = self.results.iter().zip(&candidate).all(|(new, guess)| new <= guess);
+            if inductive {
+                for (i, &s) in states.iter().enumerate() {
+                    let tighter = self.results[i].min(old[i]).max(shared.lower[s as usize]);
+                    shared.upper[s as usize] = tighter;
+                }
+                return true;
+            }
+            candidate.iter_mut().zip(&self.results).for_each(|(guess, new)| *guess = new.min(1.0));
+        }
+        states.iter().zip(&old).for_each(|(&s, &u)| shared.upper[s as usize] = u);
+        false
+    }
+
+    /// Leaves in both tables what the final bounds say about the rows.
+    fn evaluate_rows_finally(&mut self) {
+        let shared = &mut *self.shared;
+        self.sweep.evaluate_rows(&shared.lower, Side::Lower, &mut shared.lower_rows);
+        self.sweep.evaluate_rows(&shared.upper, Side::Upper, &mut shared.upper_rows);
+    }
+}
