@@ -73,7 +73,7 @@ fn double_integrator_speed() {
         safe.set(41 * 10 + s, false);
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    for (steps, policy) in [(Some(16), false), (Some(16), true), ] {
+    for (steps, policy) in [(Some(16), false), (Some(16), true)] {
         let mut best = f64::INFINITY;
         let mut last = None;
         for _ in 0..10 {
@@ -92,8 +92,5 @@ fn double_integrator_speed() {
             solution.values.gap(),
             solution.values.lower[0]
         );
-        if steps.is_none() {
-            break;
-        }
     }
 }

@@ -174,11 +174,6 @@ impl<'a> Iteration<'a> {
     fn finish(self, steps: u64, status: Status, iterations: u64) -> Solution {
         let states = self.model.num_states();
         let policy = self.current.is_some().then(|| Policy::time_varying(steps, states, &self.changes));
-        Solution {
-            values: ValueBounds { lower: self.lower, upper: self.upper },
-            status,
-            iterations,
-            policy,
-        }
+        Solution { values: ValueBounds { lower: self.lower, upper: self.upper }, status, iterations, policy }
     }
 }

@@ -14,7 +14,7 @@ use super::options::{Control, Status};
 use super::query::{Optimum, Players};
 use super::range_optimum::RangeOptimum;
 use super::sweep::Sweep;
-use crate::imdp::{IntervalMdp, RowId, StateId};
+use crate::imdp::{IntervalMdp, RowId, StateId, StateSet};
 
 /// The bounds of the whole model, as far as they are known.
 pub(super) struct Shared<'a> {
@@ -26,6 +26,8 @@ pub(super) struct Shared<'a> {
     pub upper_rows: RangeOptimum,
     /// A maximising policy: the choice by which each state's lower bound was last improved.
     pub choices: Vec<u32>,
+    /// The rows of the component being solved.
+    pub own_rows: StateSet,
 }
 
 /// The part being solved.
@@ -34,6 +36,8 @@ pub(super) struct Component<'s, 'a> {
     pub sweep: Sweep<'a>,
     /// By position in `sweep.states`: the last change of the lower bounds.
     pub change: Vec<f64>,
+    /// How many times the last change the next jump of the lower bounds tries.
+    pub leap: f64,
     results: Vec<f64>,
 }
 
@@ -43,7 +47,8 @@ impl<'s, 'a> Component<'s, 'a> {
         shared.upper_rows.prepare(shared.model.choices(), &states);
         let change = vec![0.0; states.len()];
         let sweep = Sweep::new(shared.model, shared.players, states, rows);
-        Self { shared, sweep, change, results: vec![] }
+        rows.iter().for_each(|&row| shared.own_rows.insert(row as usize));
+        Self { shared, sweep, change, leap: 0.0, results: vec![] }
     }
 
     /// Iterates until the bounds are at most `share` further apart than those of the successors.
@@ -65,8 +70,8 @@ impl<'s, 'a> Component<'s, 'a> {
             }
             previous = change;
             if sweeps >= next_jump && change > 0.0 {
-                next_jump = sweeps + 4 + sweeps / 16;
-                self.extrapolate(rate);
+                let jumped = self.extrapolate(rate);
+                next_jump = sweeps + if jumped { 4 } else { 4 + sweeps / 8 };
                 previous = 0.0;
             }
             if sweeps >= next_guess || change == 0.0 {
@@ -83,23 +88,22 @@ impl<'s, 'a> Component<'s, 'a> {
                 }
             }
         }
-        self.evaluate_rows_finally();
+        self.finish();
         None
     }
 
     /// How far apart the bounds of everything this part leads to are.
     fn gap_behind(&self) -> f64 {
         let shared = &self.shared;
-        let own: std::collections::HashSet<RowId> = self.sweep.rows().collect();
         let inside = |s: &StateId| self.sweep.states.binary_search(s).is_ok();
         let mut gap: f64 = 0.0;
-        for &row in &own {
+        for row in self.sweep.rows() {
             for s in shared.model.rows().row(row).successors.iter().filter(|s| !inside(s)) {
                 gap = gap.max(shared.upper[*s as usize] - shared.lower[*s as usize]);
             }
         }
         let rows = self.sweep.states.iter().flat_map(|&s| shared.model.choices().rows(s));
-        for row in rows.filter(|row| !own.contains(row)) {
+        for row in rows.filter(|&row| !shared.own_rows.contains(row as usize)) {
             let row = row as usize;
             gap = gap.max(shared.upper_rows.values()[row] - shared.lower_rows.values()[row]);
         }
@@ -136,11 +140,16 @@ impl<'s, 'a> Component<'s, 'a> {
         let states = self.sweep.states.clone();
         let mut candidate: Vec<f64> =
             states.iter().map(|&s| (self.shared.lower[s as usize] + margin).min(1.0)).collect();
-        level(self, &mut candidate);
         let old: Vec<f64> = states.iter().map(|&s| self.shared.upper[s as usize]).collect();
-        let shared = &mut *self.shared;
-        // A rejected guess is improved a few times: applying the operator gives it the right shape.
-        for _ in 0..4 {
+        // A rejected guess is levelled, then improved: applying the operator gives it the right shape.
+        for attempt in 0..4 {
+            if attempt == 1 {
+                states.iter().zip(&old).for_each(|(&s, &u)| self.shared.upper[s as usize] = u);
+                let raised = |&s: &StateId| (self.shared.lower[s as usize] + margin).min(1.0);
+                candidate = states.iter().map(raised).collect();
+                level(self, &mut candidate);
+            }
+            let shared = &mut *self.shared;
             states.iter().zip(&candidate).for_each(|(&s, &u)| shared.upper[s as usize] = u);
             self.sweep.evaluate_rows(&shared.upper, Side::Upper, &mut shared.upper_rows);
             self.sweep.evaluate_states(&shared.upper_rows, &mut self.results);
@@ -154,14 +163,17 @@ impl<'s, 'a> Component<'s, 'a> {
             }
             candidate.iter_mut().zip(&self.results).for_each(|(guess, new)| *guess = new.min(1.0));
         }
-        states.iter().zip(&old).for_each(|(&s, &u)| shared.upper[s as usize] = u);
+        states.iter().zip(&old).for_each(|(&s, &u)| self.shared.upper[s as usize] = u);
         false
     }
 
     /// Leaves in both tables what the final bounds say about the rows.
-    fn evaluate_rows_finally(&mut self) {
+    fn finish(&mut self) {
         let shared = &mut *self.shared;
         self.sweep.evaluate_rows(&shared.lower, Side::Lower, &mut shared.lower_rows);
         self.sweep.evaluate_rows(&shared.upper, Side::Upper, &mut shared.upper_rows);
+        shared.lower_rows.reset();
+        shared.upper_rows.reset();
+        self.sweep.rows().for_each(|row| shared.own_rows.set(row as usize, false));
     }
 }

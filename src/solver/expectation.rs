@@ -47,46 +47,42 @@ pub(super) struct RowBlock {
     pub rows: Vec<RowId>,
     /// The positions within each row, one row after the other, ascending in value.
     order: Vec<u32>,
+    /// `1 − Σ l` of every row.
+    slacks: Vec<f64>,
     scratch: Vec<f64>,
 }
 
 impl RowBlock {
     pub fn new(all: &Rows, rows: Vec<RowId>) -> Self {
         let order = rows.iter().flat_map(|&row| 0..all.row_len(row) as u32).collect();
-        Self { rows, order, scratch: vec![] }
+        let slacks = rows.iter().map(|&row| slack(all.row(row))).collect();
+        Self { rows, order, slacks, scratch: vec![] }
     }
 
     /// The expectations of the rows of the block, in their order.
     pub fn evaluate(&mut self, all: &Rows, values: &[f64], nature: Optimum, side: Side) -> Vec<f64> {
-        let Self { rows, order, scratch } = self;
+        let Self { rows, order, slacks, scratch } = self;
         let mut order = &mut order[..];
-        let expectations = rows.iter().map(|&id| {
+        let expectations = rows.iter().zip(slacks).map(|(&id, slack)| {
             let row = all.row(id);
             let (own, rest) = std::mem::take(&mut order).split_at_mut(row.len());
             order = rest;
-            expectation(row, values, own, scratch, nature, side)
+            expectation((row, *slack), values, (own, scratch), nature, side)
         });
         expectations.collect()
     }
 }
 
-/// The slack of a row as it is poured: `1 − Σ l ± η`.
-fn slack(row: Row<'_>, side: Side) -> f64 {
-    let slack = 1.0 - row.lower.iter().sum::<f64>();
-    // `rounding_factor` doubles: this is (2m + 8)ε.
-    let margin = rounding_factor(row.len() + 4);
-    match side {
-        Side::Lower => (slack - margin).max(0.0),
-        Side::Upper => (slack + margin).max(0.0),
-    }
+/// `1 − Σ l`, to nearest.
+fn slack(row: Row<'_>) -> f64 {
+    1.0 - row.lower.iter().sum::<f64>()
 }
 
 /// A bound on `min_p p·V` or `max_p p·V`, see the module's documentation.
-pub(super) fn expectation(
-    row: Row<'_>,
+fn expectation(
+    (row, slack): (Row<'_>, f64),
     values: &[f64],
-    order: &mut [u32],
-    scratch: &mut Vec<f64>,
+    (order, scratch): (&mut [u32], &mut Vec<f64>),
     nature: Optimum,
     side: Side,
 ) -> f64 {
@@ -101,8 +97,13 @@ pub(super) fn expectation(
     if lowest == highest {
         return lowest;
     }
-    let base: f64 = row.lower.iter().zip(&*scratch).map(|(l, v)| l * v).sum();
-    let slack = slack(row, side);
+    let base = dot(row.lower, scratch);
+    // `rounding_factor` doubles: this is η = (2m + 8)ε.
+    let margin = rounding_factor(row.len() + 4);
+    let slack = match side {
+        Side::Lower => (slack - margin).max(0.0),
+        Side::Upper => (slack + margin).max(0.0),
+    };
     let poured = match nature {
         Optimum::Min => {
             let (poured, left) = pour(row, scratch, slack, order.iter());
@@ -117,8 +118,26 @@ pub(super) fn expectation(
     }
 }
 
+/// `Σ a b` in four interleaved sums, which the error bound for one sum covers as well.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (a, b) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
+    for (a, b) in a.zip(b) {
+        for lane in 0..4 {
+            sums[lane] += a[lane] * b[lane];
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
 /// Pours the slack in the given order; returns its share of the expectation and what found no room.
-fn pour<'a>(row: Row<'_>, values: &[f64], mut slack: f64, order: impl Iterator<Item = &'a u32>) -> (f64, f64) {
+fn pour<'a>(
+    row: Row<'_>,
+    values: &[f64],
+    mut slack: f64,
+    order: impl Iterator<Item = &'a u32>,
+) -> (f64, f64) {
     let mut sum = 0.0;
     for &i in order {
         let i = i as usize;
@@ -139,7 +158,7 @@ pub(super) fn poured_mass(row: Row<'_>, values: &[f64], nature: Optimum) -> Vec<
     if nature == Optimum::Max {
         order.reverse();
     }
-    let mut left = (1.0 - row.lower.iter().sum::<f64>()).max(0.0);
+    let mut left = slack(row).max(0.0);
     let mut poured = vec![0.0; row.len()];
     for i in order {
         poured[i] = (row.upper[i] - row.lower[i]).min(left);
@@ -162,7 +181,8 @@ fn sort(order: &mut [u32], values: &[f64]) {
         }
         order[j] = element;
         if i - j > budget {
-            order.sort_unstable_by(|&a, &b| values[a as usize].total_cmp(&values[b as usize]).then(a.cmp(&b)));
+            order
+                .sort_unstable_by(|&a, &b| values[a as usize].total_cmp(&values[b as usize]).then(a.cmp(&b)));
             return;
         }
         budget -= i - j;

@@ -18,15 +18,17 @@ use crate::imdp::{RowId, StateId};
 use std::collections::HashMap;
 
 impl Component<'_, '_> {
-    /// Tries to jump; on failure nothing changes.
-    pub(super) fn extrapolate(&mut self, rate: f64) {
-        if !(rate > 0.5 && rate < 1.0) {
-            return;
-        }
+    /// Tries to jump and returns whether it did; on failure nothing changes.
+    pub(super) fn extrapolate(&mut self, rate: f64) -> bool {
+        // Near the limit, rounding hides the rate: what has worked before is the better guide.
+        let expected = if rate > 0.5 && rate < 1.0 { 0.9 * rate / (1.0 - rate) } else { 0.0 };
+        let mut factor = expected.max(4.0 * self.leap).min(1e15);
         let states = self.sweep.states.clone();
         let old: Vec<f64> = states.iter().map(|&s| self.shared.lower[s as usize]).collect();
-        let mut factor = 0.9 * rate / (1.0 - rate);
-        for _ in 0..3 {
+        for _ in 0..4 {
+            if factor < 1.0 {
+                break;
+            }
             for (i, &s) in states.iter().enumerate() {
                 let value = old[i] + factor * self.change[i];
                 self.shared.lower[s as usize] = value.min(self.shared.upper[s as usize]).max(old[i]);
@@ -35,11 +37,14 @@ impl Component<'_, '_> {
                 if self.shared.players.policy == Optimum::Max {
                     states.iter().for_each(|&s| self.shared.choose(s));
                 }
-                return;
+                self.leap = factor;
+                return true;
             }
-            factor /= 8.0;
+            factor /= 6.0;
         }
+        self.leap = factor;
         states.iter().zip(&old).for_each(|(&s, &value)| self.shared.lower[s as usize] = value);
+        false
     }
 
     /// Whether the current lower bounds satisfy both conditions.
@@ -55,16 +60,20 @@ impl Component<'_, '_> {
     fn is_left(&self, states: &[StateId]) -> bool {
         let shared = &*self.shared;
         let all = shared.model.rows();
-        let own: HashMap<RowId, Vec<bool>> = self.sweep.rows().map(|id| (id, self.certain_support(id))).collect();
+        let is_own = |row: &RowId| shared.own_rows.contains(*row as usize);
+        let supports: HashMap<RowId, Vec<bool>> = match shared.players.nature {
+            Optimum::Min => HashMap::new(),
+            Optimum::Max => self.sweep.rows().map(|id| (id, self.certain_support(id))).collect(),
+        };
         // Only the maximising side's choice is fixed.
         let rows_of = |s: StateId| -> Vec<RowId> {
             let rows = shared.model.choices().rows(s);
             match shared.players.policy {
-                Optimum::Min => rows.filter(|row| own.contains_key(row)).collect(),
+                Optimum::Min => rows.filter(is_own).collect(),
                 Optimum::Max => {
                     let best = shared.lower_rows.best(shared.model.choices().ranges(s));
                     let attains = |row: &RowId| shared.lower_rows.values()[*row as usize] == best;
-                    rows.filter(attains).take(1).filter(|row| own.contains_key(row)).collect()
+                    rows.filter(attains).take(1).filter(is_own).collect()
                 }
             }
         };
@@ -82,7 +91,7 @@ impl Component<'_, '_> {
                 let stays = rows.iter().any(|id| match shared.players.nature {
                     Optimum::Min => can_stay(all.row(*id), &contained),
                     Optimum::Max => {
-                        let support = own.get(id).map_or(&[][..], |support| support);
+                        let support = supports.get(id).map_or(&[][..], |support| support);
                         all.row(*id).successors.iter().zip(support).all(|(s, sure)| !sure || contained(*s))
                     }
                 });

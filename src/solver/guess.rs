@@ -1,10 +1,10 @@
 //! Upper bounds that have a chance to be inductive in end components.
 
-use super::component::Component;
+use super::component::{Component, Shared};
 use super::expectation::poured_mass;
-use super::graph::{Candidates, end_components};
+use super::graph::{Candidates, can_stay, end_components};
 use super::query::Optimum;
-use crate::imdp::RowId;
+use crate::imdp::{RowId, StateId};
 use std::collections::HashMap;
 
 /// Raises a candidate to its maximum over each end component of the maximising side.
@@ -18,8 +18,23 @@ pub(super) fn level(component: &Component<'_, '_>, candidate: &mut [f64]) {
         return;
     }
     let rows: Vec<RowId> = component.sweep.rows().collect();
-    let position: HashMap<RowId, u32> = rows.iter().copied().zip(0..).collect();
-    let choices = component.sweep.states.iter().map(|&s| {
+    let supports: Option<Vec<Vec<bool>>> = (players.nature == Optimum::Min)
+        .then(|| rows.iter().map(|&id| minimal_support(shared, id)).collect());
+    // Most rows can leave for a finished state: they are in no end component.
+    let inside = |s: StateId| component.sweep.states.binary_search(&s).is_ok();
+    let may_stay = |position: usize| {
+        let row = shared.model.rows().row(rows[position]);
+        match &supports {
+            Some(supports) => row.successors.iter().zip(&supports[position]).all(|(s, p)| !p || inside(*s)),
+            None => can_stay(row, &inside),
+        }
+    };
+    let staying = (0..rows.len()).filter(|&i| may_stay(i)).map(|i| (rows[i], i as u32));
+    let position: HashMap<RowId, u32> = staying.collect();
+    if position.is_empty() {
+        return;
+    }
+    let choices_of = |&s: &StateId| -> Vec<u32> {
         let ranges = shared.model.choices().ranges(s);
         let all = shared.model.choices().rows(s);
         match players.policy {
@@ -30,23 +45,20 @@ pub(super) fn level(component: &Component<'_, '_>, candidate: &mut [f64]) {
                 all.filter(attains).take(1).filter_map(|row| position.get(&row).copied()).collect()
             }
         }
-    });
-    let support = |&id: &RowId| {
-        let row = shared.model.rows().row(id);
-        // Less than this is what rounding leaves over.
-        let negligible = crate::numeric::rounding_factor(row.len() + 4);
-        let poured = poured_mass(row, &shared.lower, Optimum::Min);
-        poured.iter().zip(row.lower).map(|(p, l)| *l > 0.0 || *p > negligible).collect()
     };
-    let part = Candidates {
-        model: shared.model,
-        states: &component.sweep.states,
-        choices: choices.collect(),
-        supports: (players.nature == Optimum::Min).then(|| rows.iter().map(support).collect()),
-        rows,
-    };
+    let choices = component.sweep.states.iter().map(choices_of).collect();
+    let part = Candidates { model: shared.model, states: &component.sweep.states, choices, supports, rows };
     for class in end_components(&part) {
         let top = class.iter().map(|&i| candidate[i as usize]).fold(0.0, f64::max);
         class.iter().for_each(|&i| candidate[i as usize] = top);
     }
+}
+
+/// Where a minimising nature puts mass at the current lower bounds.
+fn minimal_support(shared: &Shared<'_>, id: RowId) -> Vec<bool> {
+    let row = shared.model.rows().row(id);
+    // Less than this is what rounding leaves over.
+    let negligible = crate::numeric::rounding_factor(row.len() + 4);
+    let poured = poured_mass(row, &shared.lower, Optimum::Min);
+    poured.iter().zip(row.lower).map(|(p, l)| *l > 0.0 || *p > negligible).collect()
 }

@@ -57,7 +57,8 @@ impl Policy {
     /// The index of the choice made in `state` after `elapsed` steps, counted in the state's own choices.
     pub fn choice(&self, state: StateId, elapsed: u64) -> Option<u32> {
         let left = self.horizon.map_or(Some(1), |horizon| horizon.checked_sub(elapsed))?;
-        let range = self.starts.get(state as usize).copied()?..self.starts.get(state as usize + 1).copied()?;
+        let range =
+            self.starts.get(state as usize).copied()?..self.starts.get(state as usize + 1).copied()?;
         let changes = &self.changes[range];
         let later = changes.partition_point(|&(from, _)| from <= left);
         later.checked_sub(1).map(|index| changes[index].1)

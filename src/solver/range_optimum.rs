@@ -28,6 +28,11 @@ impl RangeOptimum {
         self.levels.resize_with(levels, || vec![0.0; rows]);
     }
 
+    /// Back to scans.
+    pub fn reset(&mut self) {
+        self.levels.truncate(1);
+    }
+
     /// The row values, to be changed before [`RangeOptimum::rebuild`].
     pub fn values_mut(&mut self) -> &mut [f64] {
         &mut self.levels[0]
@@ -47,10 +52,16 @@ impl RangeOptimum {
             let pairs = below.iter().zip(below.iter().skip(half));
             match self.optimum {
                 Optimum::Max => {
-                    above.iter_mut().zip(pairs).for_each(|(best, (&a, &b))| *best = if a > b { a } else { b });
+                    above
+                        .iter_mut()
+                        .zip(pairs)
+                        .for_each(|(best, (&a, &b))| *best = if a > b { a } else { b });
                 }
                 Optimum::Min => {
-                    above.iter_mut().zip(pairs).for_each(|(best, (&a, &b))| *best = if a < b { a } else { b });
+                    above
+                        .iter_mut()
+                        .zip(pairs)
+                        .for_each(|(best, (&a, &b))| *best = if a < b { a } else { b });
                 }
             }
         }
@@ -89,16 +100,18 @@ mod tests {
     #[test]
     fn agrees_with_a_scan() {
         let values: Vec<f64> = (0..37u32).map(|i| f64::from(i * 7919 % 101)).collect();
-        for (optimum, levels) in [(Optimum::Min, 1), (Optimum::Max, 1), (Optimum::Min, 6), (Optimum::Max, 6)] {
+        for (optimum, levels) in [(Optimum::Min, 1), (Optimum::Max, 1), (Optimum::Min, 6), (Optimum::Max, 6)]
+        {
             let mut table = RangeOptimum::new(optimum, values.len());
             table.levels.resize_with(levels, || vec![0.0; values.len()]);
             table.values_mut().copy_from_slice(&values);
             table.rebuild();
             for first in 0..values.len() {
                 for last in first..values.len() {
-                    let scan = values[first..=last].iter().copied().reduce(|a, b| {
-                        if optimum.prefers(b, a) { b } else { a }
-                    });
+                    let scan = values[first..=last]
+                        .iter()
+                        .copied()
+                        .reduce(|a, b| if optimum.prefers(b, a) { b } else { a });
                     let range = RowRange { first: first as u32, last: last as u32 };
                     assert_eq!(table.best(&[range]), scan.unwrap());
                 }

@@ -72,7 +72,11 @@ impl<'a> Sweep<'a> {
         let choices = self.model.choices();
         out.clear();
         if self.many_ranges {
-            self.states.par_iter().with_min_len(256).map(|&s| table.best(choices.ranges(s))).collect_into_vec(out);
+            self.states
+                .par_iter()
+                .with_min_len(256)
+                .map(|&s| table.best(choices.ranges(s)))
+                .collect_into_vec(out);
         } else {
             out.extend(self.states.iter().map(|&s| table.best(choices.ranges(s))));
         }

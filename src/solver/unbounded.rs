@@ -28,7 +28,10 @@ pub(super) fn until(
     let rows = model.rows().len();
     let mut moving = StateSet::with_capacity(states);
     let has_rows = |s: &usize| !model.choices().ranges(*s as StateId).is_empty();
-    (0..states).filter(|&s| safe.contains(s) && !goal.contains(s)).filter(has_rows).for_each(|s| moving.insert(s));
+    (0..states)
+        .filter(|&s| safe.contains(s) && !goal.contains(s))
+        .filter(has_rows)
+        .for_each(|s| moving.insert(s));
     let known = zero_one(model, goal, &moving, players);
     let open = |s: usize| known.positive.contains(s) && !known.certain.contains(s);
 
@@ -42,6 +45,7 @@ pub(super) fn until(
         lower_rows: table.clone(),
         upper_rows: table,
         choices: known.choices.clone(),
+        own_rows: StateSet::with_capacity(rows),
     };
     // Every cyclic part may add its share to the distance of the bounds of what it depends on.
     let share = options.epsilon / (2.0 * (1 + longest_dependency(&parts, model, rows)) as f64);
@@ -86,10 +90,8 @@ enum Part {
 fn parts(model: &IntervalMdp, open: &impl Fn(usize) -> bool) -> Vec<Part> {
     let (states, rows) = (model.num_states(), model.rows().len());
     let tree = ChoiceTree::new(rows, model.choices(), |s| open(s as usize));
-    let components = strong_components(
-        states + 2 * rows,
-        (0..states).filter(|&s| open(s)),
-        |node, out| match node.checked_sub(states) {
+    let components = strong_components(states + 2 * rows, (0..states).filter(|&s| open(s)), |node, out| {
+        match node.checked_sub(states) {
             None => out.extend(tree.cover(node as StateId).iter().map(|node| node + states as u32)),
             Some(inner) if inner < rows => {
                 out.extend([2 * inner, 2 * inner + 1].map(|child| (states + child) as u32));
@@ -99,8 +101,8 @@ fn parts(model: &IntervalMdp, open: &impl Fn(usize) -> bool) -> Vec<Part> {
                 let possible = row.successors.iter().zip(row.upper).filter(|(_, u)| **u > 0.0);
                 out.extend(possible.map(|(s, _)| *s).filter(|&s| open(s as usize)));
             }
-        },
-    );
+        }
+    });
     let part = |component: Vec<u32>| {
         let (mut own_states, mut own_rows) = (vec![], vec![]);
         for node in component {
@@ -142,7 +144,8 @@ fn longest_dependency(parts: &[Part], model: &IntervalMdp, rows: usize) -> usize
             Part::State(state) => of_state[*state as usize] = across(*state, &of_row),
             Part::Cyclic { states, rows } => {
                 let rows_behind = rows.iter().map(|&row| behind(row, &of_state)).max();
-                let depth = states.iter().map(|&s| across(s, &of_row)).max().max(rows_behind).unwrap_or(0) + 1;
+                let depth =
+                    states.iter().map(|&s| across(s, &of_row)).max().max(rows_behind).unwrap_or(0) + 1;
                 rows.iter().for_each(|&row| of_row[row as usize] = depth);
                 states.iter().for_each(|&s| of_state[s as usize] = depth);
                 longest = longest.max(depth as usize);

@@ -12,9 +12,12 @@ fn nature_may_refuse_to_move() {
     // 0 → goal 1 with [0, 1], itself with [0, 1].
     let m = model(&[vec![(0, 0.0, 1.0), (1, 0.0, 1.0)]], &[Some(vec![(0, 0)]), None]);
     let (safe, goal) = (set(2, &[0, 1]), set(2, &[1]));
-    for (resolution, expected) in
-        [(Resolution::Pmaxmin, 0.0), (Resolution::Pmaxmax, 1.0), (Resolution::Pminmin, 0.0), (Resolution::Pminmax, 1.0)]
-    {
+    for (resolution, expected) in [
+        (Resolution::Pmaxmin, 0.0),
+        (Resolution::Pmaxmax, 1.0),
+        (Resolution::Pminmin, 0.0),
+        (Resolution::Pminmax, 1.0),
+    ] {
         let solution = until(&m, &safe, &goal, None, resolution);
         assert_eq!(values(&solution, 0), (expected, expected), "{resolution}");
     }
@@ -68,7 +71,10 @@ fn slow_walks_converge() {
 fn end_components_of_nature_are_levelled() {
     // 0 ⇄ 1 for ever if nature likes, or out with [0, 0.5]: goal 2 and fail 3 half and half.
     let m = model(
-        &[vec![(1, 0.5, 1.0), (2, 0.0, 0.2), (3, 0.1, 0.3)], vec![(0, 0.0, 1.0), (1, 0.0, 1.0), (3, 0.0, 0.1)]],
+        &[
+            vec![(1, 0.5, 1.0), (2, 0.0, 0.2), (3, 0.1, 0.3)],
+            vec![(0, 0.0, 1.0), (1, 0.0, 1.0), (3, 0.0, 0.1)],
+        ],
         &[Some(vec![(0, 0)]), Some(vec![(1, 1)]), None, None],
     );
     let (safe, goal) = (set(4, &[0, 1, 2, 3]), set(4, &[2]));
@@ -103,7 +109,8 @@ fn long_chains_take_one_pass() {
     states.extend([None, None]);
     let m = model(&rows, &states);
     let all: Vec<usize> = (0..n as usize + 2).collect();
-    let solution = until(&m, &set(all.len(), &all), &set(all.len(), &[n as usize]), None, Resolution::Pmaxmin);
+    let solution =
+        until(&m, &set(all.len(), &all), &set(all.len(), &[n as usize]), None, Resolution::Pmaxmin);
     assert_eq!(solution.status, Status::Converged);
     assert_eq!(solution.iterations, 0);
     assert!((solution.values.lower[0] - 0.9999f64.powi(n as i32)).abs() < 1e-9);
@@ -111,10 +118,8 @@ fn long_chains_take_one_pass() {
 
 #[test]
 fn limits_leave_sound_bounds() {
-    let m = model(
-        &[vec![(0, 0.9, 0.9), (1, 0.05, 0.05), (2, 0.05, 0.05)]],
-        &[Some(vec![(0, 0)]), None, None],
-    );
+    let m =
+        model(&[vec![(0, 0.9, 0.9), (1, 0.05, 0.05), (2, 0.05, 0.05)]], &[Some(vec![(0, 0)]), None, None]);
     let (safe, goal) = (set(3, &[0, 1, 2]), set(3, &[1]));
     for steps in [None, Some(100)] {
         let options = SolverOptions { max_iterations: 3, ..Default::default() };
@@ -142,7 +147,10 @@ fn a_policy_says_what_to_do_after_so_many_steps() {
     let (safe, goal) = (set(4, &[0, 1, 2, 3]), set(4, &[2]));
     let solution = until(&m, &safe, &goal, Some(5), Resolution::Pmaxmin);
     let policy = solution.policy.unwrap();
-    assert_eq!((0..6).map(|k| policy.choice(0, k)).collect::<Vec<_>>(), [Some(1), Some(1), Some(1), Some(1), Some(0), None]);
+    assert_eq!(
+        (0..6).map(|k| policy.choice(0, k)).collect::<Vec<_>>(),
+        [Some(1), Some(1), Some(1), Some(1), Some(0), None]
+    );
     assert_eq!(policy.row(m.choices(), 0, 0), Some(1));
     assert_eq!(policy.choice(2, 0), None);
     assert_eq!(solution.iterations, 3);

@@ -52,7 +52,12 @@ fn row(states: u32, width: usize) -> impl Strategy<Value = Entries> {
             let slow = |(i, e): (usize, &(u32, u32, u32, bool))| {
                 if i == last { (e.0, 0.999, 0.9999) } else { (e.0, 0.0, if e.3 { 0.001 } else { 0.002 }) }
             };
-            return entries.iter().enumerate().map(slow).map(|(s, l, u)| (s, l, if u < 0.01 { 0.002 } else { u })).collect();
+            return entries
+                .iter()
+                .enumerate()
+                .map(slow)
+                .map(|(s, l, u)| (s, l, if u < 0.01 { 0.002 } else { u }))
+                .collect();
         }
         let mut lower: Vec<u32> = entries.iter().map(|e| if e.3 { 0 } else { e.1.min(e.2) }).collect();
         let mut upper: Vec<u32> = entries.iter().map(|e| e.1.max(e.2)).collect();

@@ -188,7 +188,8 @@ pub fn bounded(
     next: bool,
 ) -> Vec<BigRational> {
     let n = model.num_states();
-    let mut values: Vec<BigRational> = (0..n).map(|s| BigRational::from_integer(i64::from(goal.contains(s)).into())).collect();
+    let mut values: Vec<BigRational> =
+        (0..n).map(|s| BigRational::from_integer(i64::from(goal.contains(s)).into())).collect();
     for _ in 0..steps {
         let row_value = |id: u32| {
             let row = model.rows().row(id);

@@ -31,8 +31,9 @@ pub(in crate::solver) fn upper_covers_one(row: crate::imdp::Row<'_>, inside: imp
     let outside = || row.successors.iter().zip(row.upper).filter(|(s, u)| !inside(**s) && **u > 0.0);
     // A row admits a distribution: if nothing else is possible, the set has it all.
     outside().next().is_none()
-        || compare_with_one(row.successors.iter().zip(row.upper).filter(|(s, _)| inside(**s)).map(|(_, u)| *u))
-            != Ordering::Less
+        || compare_with_one(
+            row.successors.iter().zip(row.upper).filter(|(s, _)| inside(**s)).map(|(_, u)| *u),
+        ) != Ordering::Less
 }
 
 /// Whether the lower bounds of the successors in a set reach 1: `Σ_T l ≥ 1`.

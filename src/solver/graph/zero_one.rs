@@ -79,7 +79,8 @@ impl Analysis<'_> {
     /// `Q_p p(X) = 1`.
     fn stays(&self, row: Row<'_>, set: &StateSet) -> bool {
         let inside = |s: u32| set.contains(s as usize);
-        let outside = |bounds: &[f64]| row.successors.iter().zip(bounds).all(|(s, b)| inside(*s) || *b == 0.0);
+        let outside =
+            |bounds: &[f64]| row.successors.iter().zip(bounds).all(|(s, b)| inside(*s) || *b == 0.0);
         match self.players.nature {
             Optimum::Min => outside(row.upper) || lower_covers_one(row, inside),
             Optimum::Max => outside(row.lower) && upper_covers_one(row, inside),
@@ -92,7 +93,11 @@ impl Analysis<'_> {
     }
 
     /// The same; `joined(s, a)` is told by which row a state was the first time found to belong to `Y`.
-    fn attract_with(&self, allowed: &StateSet, mut joined: impl FnMut(StateId, RowId)) -> (StateSet, StateSet) {
+    fn attract_with(
+        &self,
+        allowed: &StateSet,
+        mut joined: impl FnMut(StateId, RowId),
+    ) -> (StateSet, StateSet) {
         let rows = self.model.rows();
         let (mut reached, mut done) = (self.goal.clone(), StateSet::with_capacity(rows.len()));
         let mut collector = self.tree.collect(self.players.policy);
