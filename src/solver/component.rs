@@ -11,7 +11,7 @@
 use super::expectation::Side;
 use super::guess::level;
 use super::options::{Control, Status};
-use super::query::{Optimum, Players};
+use super::query::Players;
 use super::range_optimum::RangeOptimum;
 use super::sweep::Sweep;
 use crate::imdp::{IntervalMdp, RowId, StateId, StateSet};
@@ -26,6 +26,8 @@ pub(super) struct Shared<'a> {
     pub upper_rows: RangeOptimum,
     /// A maximising policy: the choice by which each state's lower bound was last improved.
     pub choices: Vec<u32>,
+    /// Whether anybody will ask for it.
+    pub wants_policy: bool,
     /// The rows of the component being solved.
     pub own_rows: StateSet,
 }
@@ -74,7 +76,8 @@ impl<'s, 'a> Component<'s, 'a> {
                 next_jump = sweeps + if jumped { 4 } else { 4 + sweeps / 8 };
                 previous = 0.0;
             }
-            if sweeps >= next_guess || change == 0.0 {
+            // As long as a step raises L by more, it raises L + δ.
+            if (sweeps >= next_guess && change <= behind + margin) || change == 0.0 {
                 next_guess = sweeps + 1 + sweeps / 4;
                 if self.guess(behind + margin) && (self.gap() <= behind + 2.0 * share || change == 0.0) {
                     break;
@@ -127,7 +130,7 @@ impl<'s, 'a> Component<'s, 'a> {
             largest = largest.max(change);
             if change > 0.0 {
                 shared.lower[s as usize] = self.results[i];
-                if shared.players.policy == Optimum::Max {
+                if shared.maximises_for_policy() && !shared.keeps_choice(s, self.results[i]) {
                     shared.choose(s);
                 }
             }

@@ -34,7 +34,8 @@ impl Component<'_, '_> {
                 self.shared.lower[s as usize] = value.min(self.shared.upper[s as usize]).max(old[i]);
             }
             if self.is_justified(&states) {
-                if self.shared.players.policy == Optimum::Max {
+                // The choices must be those that were checked, even if the present ones are as good.
+                if self.shared.maximises_for_policy() {
                     states.iter().for_each(|&s| self.shared.choose(s));
                 }
                 self.leap = factor;

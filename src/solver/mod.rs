@@ -49,8 +49,7 @@ pub fn solve(
 ) -> Result<Solution, SolveError> {
     query.check(model)?;
     let epsilon = options.epsilon;
-    // Written so that NaN fails.
-    if !(epsilon > 0.0) {
+    if epsilon.is_nan() || epsilon <= 0.0 {
         return Err(SolveError::Epsilon { epsilon });
     }
     let players = resolution.into();

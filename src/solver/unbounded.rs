@@ -9,7 +9,7 @@ use super::component::{Component, Shared};
 use super::expectation::Side;
 use super::graph::{ChoiceTree, strong_components, zero_one};
 use super::options::Control;
-use super::policy::{NO_CHOICE, first_choice};
+use super::policy::{NO_CHOICE, first_choice, row_of_choice};
 use super::query::{Optimum, Players};
 use super::range_optimum::RangeOptimum;
 use super::sweep::Sweep;
@@ -45,6 +45,7 @@ pub(super) fn until(
         lower_rows: table.clone(),
         upper_rows: table,
         choices: known.choices.clone(),
+        wants_policy: options.policy,
         own_rows: StateSet::with_capacity(rows),
     };
     // Every cyclic part may add its share to the distance of the bounds of what it depends on.
@@ -73,7 +74,7 @@ pub(super) fn until(
     let policy = options.policy.then(|| shared.policy(&moving, &open));
     let values = ValueBounds { lower: shared.lower, upper: shared.upper };
     // A component may have met its limit without spoiling the whole, and the other way round.
-    if status == Status::Converged && !(values.gap() <= options.epsilon) {
+    if status == Status::Converged && values.gap() > options.epsilon {
         status = Status::PrecisionLimit;
     }
     Solution { values, status, iterations: control.iterations, policy }
@@ -169,9 +170,20 @@ impl Shared<'_> {
         let s = state as usize;
         self.lower[s] = self.lower_rows.best(ranges).max(self.lower[s]);
         self.upper[s] = self.upper_rows.best(ranges).min(self.upper[s]).max(self.lower[s]);
-        if self.players.policy == Optimum::Max {
+        if self.maximises_for_policy() {
             self.choose(state);
         }
+    }
+
+    /// Whether choices must be noted when lower bounds improve.
+    pub(super) fn maximises_for_policy(&self) -> bool {
+        self.wants_policy && self.players.policy == Optimum::Max
+    }
+
+    /// Whether the present choice of a state attains the new lower bound.
+    pub(super) fn keeps_choice(&self, state: StateId, value: f64) -> bool {
+        row_of_choice(self.model.choices(), state, self.choices[state as usize])
+            .is_some_and(|row| self.lower_rows.values()[row as usize] >= value)
     }
 
     /// Makes the policy choose the best row of a state for the bounds that it must guarantee.

@@ -155,3 +155,45 @@ fn a_policy_says_what_to_do_after_so_many_steps() {
     assert_eq!(policy.choice(2, 0), None);
     assert_eq!(solution.iterations, 3);
 }
+
+#[test]
+fn rows_that_only_rounding_makes_impossible_are_bracketed_like_their_neighbours() {
+    // As decimals the lower bounds exceed 1 by 2e-16, the upper bounds miss it by 1e-16.
+    let m = model(
+        &[
+            vec![(1, 0.3333333333333334, 0.5), (2, 0.3333333333333334, 0.5), (3, 0.3333333333333334, 0.5)],
+            vec![(0, 0.0, 0.3333333333333333), (1, 0.1, 0.3333333333333333), (2, 0.0, 0.3333333333333333)],
+        ],
+        &[Some(vec![(0, 0)]), Some(vec![(1, 1)]), None, None],
+    );
+    let (safe, goal) = (set(4, &[0, 1, 2, 3]), set(4, &[2]));
+    for (resolution, _) in RESOLUTIONS {
+        for steps in [Some(0), Some(3), None] {
+            let solution = until(&m, &safe, &goal, steps, resolution);
+            assert!(
+                solution.values.gap() <= 1e-6
+                    && solution.values.lower.iter().all(|v| (0.0..=1.0).contains(v))
+            );
+        }
+    }
+}
+
+#[test]
+fn several_slow_parts_share_epsilon() {
+    // Twenty slow loops in a row, each losing a little: the bounds of all must meet.
+    let n = 20u32;
+    let rows: Vec<_> =
+        (0..n).map(|i| vec![(i, 0.99, 0.999), (i + 1, 0.0009, 0.01), (n + 1, 0.0, 0.0001)]).collect();
+    let mut states: Vec<_> = (0..n).map(|i| Some(vec![(i, i)])).collect();
+    states.extend([None, None]);
+    let m = model(&rows, &states);
+    let all: Vec<usize> = (0..n as usize + 2).collect();
+    let (safe, goal) = (set(all.len(), &all), set(all.len(), &[n as usize]));
+    for (resolution, (_, nature_max)) in RESOLUTIONS {
+        let solution = until(&m, &safe, &goal, None, resolution);
+        assert_eq!(solution.status, Status::Converged, "{resolution}");
+        let exact = if nature_max { 1.0 } else { 0.9f64.powi(n as i32) };
+        let (lower, upper) = values(&solution, 0);
+        assert!(lower <= exact + 1e-12 && exact - 1e-12 <= upper, "{resolution} {lower} {exact} {upper}");
+    }
+}

@@ -3,6 +3,7 @@
 mod cases;
 mod models;
 mod reference;
+mod speed;
 
 use dynabs::imdp::{IntervalMdp, StateSet};
 use dynabs::numeric::from_dyadic;
@@ -44,8 +45,14 @@ fn assert_bracketed(bounds: &ValueBounds, exact: &[BigRational], what: &str) {
     }
 }
 
+/// At least 400 cases; `PROPTEST_CASES` for more.
+fn config() -> ProptestConfig {
+    let default = ProptestConfig::default();
+    ProptestConfig { cases: default.cases.max(400), failure_persistence: None, ..default }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(config())]
 
     #[test]
     fn bounded_values_are_bracketed((model, safe, goal) in models::any_model(5, 8), steps in 0u64..7) {

@@ -110,3 +110,57 @@ pub fn any_model(moving: usize, width: usize) -> impl Strategy<Value = (Interval
         (model(&rows, &choices), safe, set(states, &[moving]))
     })
 }
+
+/// 41 × 41 cells, rows that spread over 39 neighbours of their target, and ranges of targets per state.
+pub fn grid_model() -> IntervalMdp {
+    let n = 41i64;
+    let outside = (n * n) as u32;
+    let mut rows = Rows::new();
+    for i in 0..n {
+        for j in 0..n {
+            let mut left = 1.0;
+            let mut entries = vec![];
+            for (di, dj) in (-4..=4i64).flat_map(|di| (-2..=2i64).map(move |dj| (di, dj))) {
+                if (di.abs() + 2 * dj.abs()) > 6 {
+                    continue;
+                }
+                let p = 0.13 * (-0.25 * (di * di) as f64 - 0.7 * (dj * dj) as f64).exp();
+                let (i, j) = (i + di, j + dj);
+                if (0..n).contains(&i) && (0..n).contains(&j) {
+                    entries.push(((i * n + j) as u32, (p - 0.006).max(0.0), p + 0.008));
+                    left -= (p - 0.006).max(0.0);
+                }
+            }
+            entries.push((outside, 0.0, left.max(0.01).min(1.0)));
+            for (s, l, u) in entries {
+                rows.push_entry(s, l, u);
+            }
+            rows.finish_row();
+        }
+    }
+    let mut builder = ChoicesBuilder::with_capacity((n * n + 1) as usize);
+    for i in 0..n {
+        for j in 0..n {
+            for t in (i - 12).max(0)..=(i + 12).min(n - 1) {
+                let first = t * n + (j - 14).max(0);
+                let last = t * n + (j + 14).min(n - 1);
+                builder.push_range(RowRange { first: first as u32, last: last as u32 });
+            }
+            builder.finish_state();
+        }
+    }
+    builder.push_absorbing();
+    let states = (n * n + 1) as usize;
+    let mut initial = StateSet::with_capacity(states);
+    initial.insert(0);
+    IntervalMdp::new(Parts {
+        kind: ModelKind::Imdp,
+        rows,
+        choices: builder.finish(),
+        actions: ActionNames::OfRow,
+        initial,
+        labels: Labels::default(),
+        variables: StateVariables::default(),
+    })
+    .unwrap()
+}
