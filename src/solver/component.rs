@@ -9,7 +9,7 @@
 //! value reproduces itself; there the guess is made level, or it would never be accepted.
 
 use super::expectation::Side;
-use super::guess::level;
+use super::guess::{Levels, levels};
 use super::options::{Control, Status};
 use super::query::Players;
 use super::range_optimum::RangeOptimum;
@@ -79,7 +79,10 @@ impl<'s, 'a> Component<'s, 'a> {
             // As long as a step raises L by more, it raises L + δ.
             if (sweeps >= next_guess && change <= behind + margin) || change == 0.0 {
                 next_guess = sweeps + 1 + sweeps / 4;
-                if self.guess(behind + margin) && (self.gap() <= behind + 2.0 * share || change == 0.0) {
+                let rounds = 4 + sweeps.min(4096) / 2;
+                if self.guess(behind + margin, rounds)
+                    && (self.gap() <= behind + 2.0 * share || change == 0.0)
+                {
                     break;
                 }
                 if change == 0.0 {
@@ -101,9 +104,11 @@ impl<'s, 'a> Component<'s, 'a> {
         let inside = |s: &StateId| self.sweep.states.binary_search(s).is_ok();
         let mut gap: f64 = 0.0;
         for row in self.sweep.rows() {
-            for s in shared.model.rows().row(row).successors.iter().filter(|s| !inside(s)) {
-                gap = gap.max(shared.upper[*s as usize] - shared.lower[*s as usize]);
-            }
+            let row = shared.model.rows().row(row);
+            let possible = row.successors.iter().zip(row.upper).filter(|(s, u)| **u > 0.0 && !inside(s));
+            gap = possible
+                .map(|(&s, _)| shared.upper[s as usize] - shared.lower[s as usize])
+                .fold(gap, f64::max);
         }
         let rows = self.sweep.states.iter().flat_map(|&s| shared.model.choices().rows(s));
         for row in rows.filter(|&row| !shared.own_rows.contains(row as usize)) {
@@ -138,36 +143,65 @@ impl<'s, 'a> Component<'s, 'a> {
         largest
     }
 
-    /// Tries `U = L + margin`; returns whether it is an upper bound.
-    fn guess(&mut self, margin: f64) -> bool {
+    /// Tries `U = L + margin` and shapes derived from it; returns whether one is an upper bound.
+    ///
+    /// Where a single step does not lose any of the margin, rounding alone can spoil a guess `C`. The mean
+    /// of `C, T(C), …, T^{k−1}(C)` spreads what is lost in `k` steps evenly: for a linear operator it is
+    /// raised by `(T^k(C) − C)/k`. Means start anew at every power of two, to forget a bad beginning.
+    fn guess(&mut self, margin: f64, rounds: u64) -> bool {
         let states = self.sweep.states.clone();
-        let mut candidate: Vec<f64> =
-            states.iter().map(|&s| (self.shared.lower[s as usize] + margin).min(1.0)).collect();
+        let raised = |&s: &StateId| (self.shared.lower[s as usize] + margin).min(1.0);
+        let mut iterate: Vec<f64> = states.iter().map(raised).collect();
         let old: Vec<f64> = states.iter().map(|&s| self.shared.upper[s as usize]).collect();
-        // A rejected guess is levelled, then improved: applying the operator gives it the right shape.
-        for attempt in 0..4 {
-            if attempt == 1 {
-                states.iter().zip(&old).for_each(|(&s, &u)| self.shared.upper[s as usize] = u);
-                let raised = |&s: &StateId| (self.shared.lower[s as usize] + margin).min(1.0);
-                candidate = states.iter().map(raised).collect();
-                level(self, &mut candidate);
-            }
-            let shared = &mut *self.shared;
-            states.iter().zip(&candidate).for_each(|(&s, &u)| shared.upper[s as usize] = u);
-            self.sweep.evaluate_rows(&shared.upper, Side::Upper, &mut shared.upper_rows);
-            self.sweep.evaluate_states(&shared.upper_rows, &mut self.results);
-            let inductive = self.results.iter().zip(&candidate).all(|(new, guess)| new <= guess);
-            if inductive {
-                for (i, &s) in states.iter().enumerate() {
-                    let tighter = self.results[i].min(old[i]).max(shared.lower[s as usize]);
-                    shared.upper[s as usize] = tighter;
+        if self.is_inductive(&iterate, &Levels::default()) {
+            self.accept(&old);
+            return true;
+        }
+        states.iter().zip(&old).for_each(|(&s, &u)| self.shared.upper[s as usize] = u);
+        let levels = levels(self);
+        levels.raise(&mut iterate);
+        let (mut sum, mut count) = (vec![0.0; states.len()], 0.0);
+        for k in 1..=rounds {
+            sum.iter_mut().zip(&iterate).for_each(|(sum, value)| *sum += value);
+            count += 1.0;
+            if k.is_power_of_two() {
+                let mean: Vec<f64> = sum.iter().map(|sum| (sum / count).min(1.0)).collect();
+                if self.is_inductive(&mean, &levels) {
+                    self.accept(&old);
+                    return true;
                 }
+                sum.fill(0.0);
+                count = 0.0;
+            }
+            if self.is_inductive(&iterate, &levels) {
+                self.accept(&old);
                 return true;
             }
-            candidate.iter_mut().zip(&self.results).for_each(|(guess, new)| *guess = new.min(1.0));
+            iterate.iter_mut().zip(&self.results).for_each(|(value, new)| *value = new.min(1.0));
         }
         states.iter().zip(&old).for_each(|(&s, &u)| self.shared.upper[s as usize] = u);
         false
+    }
+
+    /// Whether `T(U) ≤ U` with upward rounding; leaves `U` in the upper bounds and `T(U)` in the results.
+    fn is_inductive(&mut self, candidate: &[f64], levels: &Levels) -> bool {
+        let shared = &mut *self.shared;
+        let states = &self.sweep.states;
+        states.iter().zip(candidate).for_each(|(&s, &u)| shared.upper[s as usize] = u);
+        self.sweep.evaluate_rows(&shared.upper, Side::Upper, &mut shared.upper_rows);
+        if levels.cap(candidate, shared.upper_rows.values_mut()) {
+            shared.upper_rows.rebuild();
+        }
+        self.sweep.evaluate_states(&shared.upper_rows, &mut self.results);
+        self.results.iter().zip(candidate).all(|(new, guess)| new <= guess)
+    }
+
+    /// Makes `T(U)` of an inductive `U` the upper bound, unless the old one is better.
+    fn accept(&mut self, old: &[f64]) {
+        let shared = &mut *self.shared;
+        for (i, &s) in self.sweep.states.iter().enumerate() {
+            shared.upper[s as usize] = self.results[i].min(old[i]).max(shared.lower[s as usize]);
+        }
     }
 
     /// Leaves in both tables what the final bounds say about the rows.

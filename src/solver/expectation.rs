@@ -23,7 +23,7 @@
 //!   (`≤ mε`): less than `η = (2m+8)ε`, by which the slack is lowered or raised beforehand.
 //! - Slack that finds no room goes to the highest value when the minimum is rounded up, and is dropped
 //!   when a bound from below is wanted.
-//! - Finally the result lies between the smallest and the largest value of the row.
+//! - Finally the result lies between the smallest and the largest value of the row (where `u > 0`).
 
 use super::query::Optimum;
 use crate::imdp::{Row, RowId, Rows};
@@ -93,7 +93,10 @@ fn expectation(
     scratch.clear();
     scratch.extend(row.successors.iter().map(|&s| values[s as usize]));
     sort(order, scratch);
-    let (lowest, highest) = (scratch[order[0] as usize], scratch[order[order.len() - 1] as usize]);
+    // Successors that cannot have any mass bound nothing.
+    let possible = |i: &&u32| row.upper[**i as usize] > 0.0;
+    let value = |i: Option<&u32>| i.map_or(0.0, |&i| scratch[i as usize]);
+    let (lowest, highest) = (value(order.iter().find(possible)), value(order.iter().rfind(possible)));
     if lowest == highest {
         return lowest;
     }

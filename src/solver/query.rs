@@ -93,6 +93,14 @@ impl Optimum {
         }
     }
 
+    /// The other direction.
+    pub fn flipped(self) -> Self {
+        match self {
+            Self::Min => Self::Max,
+            Self::Max => Self::Min,
+        }
+    }
+
     /// The value that every other is preferred to.
     pub fn worst(self) -> f64 {
         match self {

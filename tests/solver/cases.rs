@@ -197,3 +197,22 @@ fn several_slow_parts_share_epsilon() {
         assert!(lower <= exact + 1e-12 && exact - 1e-12 <= upper, "{resolution} {lower} {exact} {upper}");
     }
 }
+
+#[test]
+fn loops_without_a_local_leak_converge() {
+    // State 0 only hands on to 2, which leaves with one half: no single step shrinks the distance.
+    let m = model(
+        &[
+            vec![(0, 0.5, 0.5), (1, 0.5, 0.5)],
+            vec![(3, 0.0, 0.002), (4, 0.999, 0.9999)],
+            vec![(0, 0.0, 0.002), (3, 0.999, 0.9999)],
+            vec![(2, 0.0, 1.0)],
+        ],
+        &[Some(vec![(2, 3)]), Some(vec![(1, 2)]), Some(vec![(2, 2), (0, 0)]), None, None],
+    );
+    let (safe, goal) = (set(5, &[0, 1, 2, 3, 4]), set(5, &[3]));
+    for (resolution, _) in RESOLUTIONS {
+        let solution = until(&m, &safe, &goal, None, resolution);
+        assert_eq!(solution.status, Status::Converged, "{resolution} {solution:?}");
+    }
+}

@@ -9,4 +9,4 @@ mod zero_one;
 pub(super) use choice_tree::ChoiceTree;
 pub(super) use end_components::{Candidates, can_stay, end_components};
 pub(super) use tarjan::strong_components;
-pub(super) use zero_one::zero_one;
+pub(super) use zero_one::{stays, zero_one};

@@ -49,7 +49,8 @@ pub(in crate::solver) fn zero_one(
     let mut certain = positive.clone();
     loop {
         for row in 0..rows {
-            let keep = allowed.contains(row) && analysis.stays(model.rows().row(row as RowId), &certain);
+            let keep = allowed.contains(row)
+                && stays(model.rows().row(row as RowId), players.nature, |s| certain.contains(s as usize));
             allowed.set(row, keep);
         }
         let (next, _) = analysis.attract(&allowed);
@@ -67,6 +68,19 @@ pub(in crate::solver) fn zero_one(
     ZeroOne { positive, certain, choices }
 }
 
+/// `Q_p p(X) = 1`: whether every (`Min`) or some (`Max`) distribution of a row stays in a set.
+pub(in crate::solver) fn stays(
+    row: Row<'_>,
+    nature: Optimum,
+    inside: impl Fn(StateId) -> bool + Copy,
+) -> bool {
+    let outside = |bounds: &[f64]| row.successors.iter().zip(bounds).all(|(s, b)| inside(*s) || *b == 0.0);
+    match nature {
+        Optimum::Min => outside(row.upper) || lower_covers_one(row, inside),
+        Optimum::Max => outside(row.lower) && upper_covers_one(row, inside),
+    }
+}
+
 struct Analysis<'a> {
     model: &'a IntervalMdp,
     goal: &'a StateSet,
@@ -76,17 +90,6 @@ struct Analysis<'a> {
 }
 
 impl Analysis<'_> {
-    /// `Q_p p(X) = 1`.
-    fn stays(&self, row: Row<'_>, set: &StateSet) -> bool {
-        let inside = |s: u32| set.contains(s as usize);
-        let outside =
-            |bounds: &[f64]| row.successors.iter().zip(bounds).all(|(s, b)| inside(*s) || *b == 0.0);
-        match self.players.nature {
-            Optimum::Min => outside(row.upper) || lower_covers_one(row, inside),
-            Optimum::Max => outside(row.lower) && upper_covers_one(row, inside),
-        }
-    }
-
     /// `μY. goal ∪ {s : Q_a (allowed(a) ∧ Q_p p(Y) > 0)}` and the rows that satisfy the condition.
     fn attract(&self, allowed: &StateSet) -> (StateSet, StateSet) {
         self.attract_with(allowed, |_, _| {})
