@@ -1,4 +1,5 @@
 //! The solver against exact values.
+#![allow(clippy::unwrap_used)] // helpers of tests are tests
 
 mod cases;
 mod models;

@@ -131,7 +131,7 @@ pub fn grid_model() -> IntervalMdp {
                     left -= (p - 0.006).max(0.0);
                 }
             }
-            entries.push((outside, 0.0, left.max(0.01).min(1.0)));
+            entries.push((outside, 0.0, left.clamp(0.01, 1.0)));
             for (s, l, u) in entries {
                 rows.push_entry(s, l, u);
             }
