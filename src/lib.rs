@@ -12,5 +12,6 @@ pub mod partition;
 pub mod progress;
 pub mod property;
 pub mod run_directory;
+pub mod solver;
 pub mod spec;
 pub mod statistics;

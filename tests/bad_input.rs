@@ -186,11 +186,9 @@ fn places_that_are_taken_stay_as_they_are() {
     fs::create_dir(&foreign).unwrap();
     fs::write(foreign.join("thesis.tex"), "precious").unwrap();
     fs::write(scratch.path().join("file"), "precious").unwrap();
-    for (target, force, words) in [
-        ("foreign", false, "other files"),
-        ("foreign", true, "other files"),
-        ("file", true, "a file"),
-    ] {
+    for (target, force, words) in
+        [("foreign", false, "other files"), ("foreign", true, "other files"), ("file", true, "a file")]
+    {
         let out = scratch.path().join(target);
         let mut arguments = vec![model.to_str().unwrap(), "-o", out.to_str().unwrap()];
         arguments.extend(force.then_some("--force"));
@@ -204,7 +202,9 @@ fn places_that_are_taken_stay_as_they_are() {
 
 #[test]
 fn wrong_usage_is_exit_code_2() {
-    for arguments in [&["--no-such-option"][..], &[], &["model.json"], &["m.json", "--dry-run", "--threads", "0"]] {
+    for arguments in
+        [&["--no-such-option"][..], &[], &["model.json"], &["m.json", "--dry-run", "--threads", "0"]]
+    {
         assert_eq!(compile(arguments).0, 2, "{arguments:?}");
     }
     let model = root().join("models/room_temperature.json");

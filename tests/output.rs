@@ -97,7 +97,10 @@ fn explicit_files_have_the_published_size() {
     assert!(fields.iter().all(|field| summary[field] == row[field]));
     assert!(summary["seconds"]["rows"].as_f64().unwrap() > 0.0);
     let lab = fs::read_to_string(out.join("model.lab")).unwrap();
-    assert!(lab.starts_with("0=\"init\" 1=\"deadlock\" 2=\"reached\" 3=\"failed\"\n0: 3\n1: 3\n2: 2\n"), "{lab}");
+    assert!(
+        lab.starts_with("0=\"init\" 1=\"deadlock\" 2=\"reached\" 3=\"failed\"\n0: 3\n1: 3\n2: 2\n"),
+        "{lab}"
+    );
     assert!(fs::read_to_string(out.join("model.sta")).unwrap().contains("\n3:(0,0)\n4:(0,1)\n"));
 }
 
@@ -135,7 +138,8 @@ fn dry_runs_write_nothing_and_print_one_object() {
 fn seeds_change_drawn_samples_only_when_asked() {
     let run = |seed: &[&str]| -> Value {
         let path = model("room_temperature");
-        serde_json::from_str(&compile(&[&[path.as_str(), "--dry-run", "--json", "--quiet"], seed].concat())).unwrap()
+        serde_json::from_str(&compile(&[&[path.as_str(), "--dry-run", "--json", "--quiet"], seed].concat()))
+            .unwrap()
     };
     let (default, one, two) = (run(&[]), run(&["--seed", "1"]), run(&["--seed", "2"]));
     assert_eq!(default["row_entries"], one["row_entries"]);
@@ -148,12 +152,17 @@ fn the_starter_model_and_the_schema_are_what_the_tool_reads() {
     let starter = scratch.path().join("mine.json");
     compile(&["--init", starter.to_str().unwrap()]);
     let object: Value =
-        serde_json::from_str(&compile(&[starter.to_str().unwrap(), "--dry-run", "--json", "--quiet"])).unwrap();
+        serde_json::from_str(&compile(&[starter.to_str().unwrap(), "--dry-run", "--json", "--quiet"]))
+            .unwrap();
     assert!(object["choices"].as_u64().unwrap() > 1000);
     let again = Command::cargo_bin("dynabs-compile").unwrap().arg("--init").arg(&starter).output().unwrap();
     assert_eq!(again.status.code(), Some(2), "--init never overwrites");
 
     let schema = compile(&["--schema"]);
     let kept = root().join("models/model.schema.json");
-    assert_eq!(schema, fs::read_to_string(kept).unwrap(), "run dynabs-compile --schema > models/model.schema.json");
+    assert_eq!(
+        schema,
+        fs::read_to_string(kept).unwrap(),
+        "run dynabs-compile --schema > models/model.schema.json"
+    );
 }

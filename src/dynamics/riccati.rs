@@ -34,6 +34,8 @@ pub enum RiccatiError {
 const ACCEPTED_RESIDUAL: f64 = 1e-9;
 /// Doubling converges quadratically: 60 doublings are 2⁶⁰ steps of the plain iteration.
 const MAX_DOUBLINGS: usize = 60;
+/// Each refinement squares the error until rounding stops it.
+const MAX_REFINEMENTS: usize = 3;
 
 impl Lqr {
     /// The gain that minimises `Σ xᵀQx + uᵀRu` for `x⁺ = A x + B u`, with `Q` and `R` positive definite.
@@ -69,8 +71,17 @@ impl Lqr {
                 break;
             }
         }
-        let gain = optimal_gain(a, b, r, &cost).ok_or(failed)?;
-        let residual = residual(a, b, q, &cost, &gain);
+        let mut gain = optimal_gain(a, b, r, &cost).ok_or(failed)?;
+        let mut residual = residual(a, b, q, &cost, &gain);
+        for _ in 0..MAX_REFINEMENTS {
+            let refined = closed_loop_cost(&(a - b * &gain), &(q + gain.transpose() * r * &gain));
+            let Some(refined_gain) = optimal_gain(a, b, r, &refined) else { break };
+            let refined_residual = self::residual(a, b, q, &refined, &refined_gain);
+            if refined_residual.is_nan() || refined_residual >= residual {
+                break;
+            }
+            (cost, gain, residual) = (refined, refined_gain, refined_residual);
+        }
         if residual.is_nan() || residual > ACCEPTED_RESIDUAL {
             return Err(RiccatiError::NotConverged { residual });
         }
@@ -96,6 +107,23 @@ fn optimal_gain(
 ) -> Option<DMatrix<f64>> {
     let weighted = b.transpose() * cost;
     (r + &weighted * b).lu().solve(&(weighted * a))
+}
+
+/// `Σ_k (Aᵀ)ᵏ W Aᵏ`: the cost of the closed loop `A` with weight `W`, by doubling (Smith, *SIAM J. Appl.
+/// Math.* 16, 1968). One step of Newton's method for the Riccati equation (Kleinman, *IEEE TAC* 13, 1968).
+fn closed_loop_cost(closed_loop: &DMatrix<f64>, weight: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut power = closed_loop.clone();
+    let mut cost = weight.clone();
+    for _ in 0..MAX_DOUBLINGS {
+        let step = power.transpose() * &cost * &power;
+        cost += &step;
+        if step.norm() <= f64::EPSILON * cost.norm() || !cost.norm().is_finite() {
+            break;
+        }
+        power = &power * &power;
+    }
+    symmetrise(&mut cost);
+    cost
 }
 
 fn residual(

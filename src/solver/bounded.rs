@@ -1,0 +1,179 @@
+//! Step-bounded until, and next: value iteration with bounds on both sides.
+//!
+//! `V_0 = 1_goal`, `V_{k+1}(s) = opt_a opt_p p·V_k` for safe states that are not goal states.
+
+use super::expectation::Side;
+use super::options::Control;
+use super::policy::{NO_CHOICE, first_choice, row_of_choice};
+use super::query::{Optimum, Players};
+use super::range_optimum::RangeOptimum;
+use super::sweep::Sweep;
+use super::{Policy, Solution, SolverOptions, Status, ValueBounds};
+use crate::imdp::{IntervalMdp, RowId, StateId, StateSet};
+
+/// The value of `safe U<=steps goal`.
+pub(super) fn until(
+    model: &IntervalMdp,
+    (safe, goal, steps): (&StateSet, &StateSet, u64),
+    players: Players,
+    options: &SolverOptions<'_>,
+) -> Solution {
+    let choices = model.choices();
+    let moving = |&s: &StateId| {
+        safe.contains(s as usize) && !goal.contains(s as usize) && !choices.ranges(s).is_empty()
+    };
+    let states: Vec<StateId> = (0..model.num_states() as StateId).filter(moving).collect();
+    let mut iteration = Iteration::new(model, players, states, goal, options.policy);
+    let mut control = Control::new(options);
+    let mut status = Status::HorizonReached;
+    while control.iterations < steps {
+        if let Some(reason) = control.stop() {
+            status = reason;
+            break;
+        }
+        let changed = iteration.step(control.iterations + 1);
+        control.done(iteration.gap);
+        if !changed {
+            break;
+        }
+    }
+    let mut solution = iteration.finish(steps, status, control.iterations);
+    if solution.status != Status::HorizonReached {
+        // The lower bounds grow with every step, so those so far hold; the upper bounds do not.
+        let mut upper = indicator(goal);
+        (0..model.num_states() as StateId).filter(moving).for_each(|s| upper[s as usize] = 1.0);
+        solution.values.upper = upper;
+    }
+    solution
+}
+
+/// The value of `X goal`.
+pub(super) fn next(
+    model: &IntervalMdp,
+    goal: &StateSet,
+    players: Players,
+    options: &SolverOptions<'_>,
+) -> Solution {
+    let moving = |&s: &StateId| !model.choices().ranges(s).is_empty();
+    let states: Vec<StateId> = (0..model.num_states() as StateId).filter(moving).collect();
+    let mut iteration = Iteration::new(model, players, states.clone(), goal, options.policy);
+    // `X` is no `U<=1`: a goal state may be left at once.
+    iteration.monotone = false;
+    iteration.step(1);
+    iteration.finish(1, Status::HorizonReached, 1)
+}
+
+/// 1 in the states of a set, 0 elsewhere.
+pub(super) fn indicator(set: &StateSet) -> Vec<f64> {
+    (0..set.len()).map(|s| if set.contains(s) { 1.0 } else { 0.0 }).collect()
+}
+
+/// The rows that some of the states can choose, ascending.
+pub(super) fn used_rows(model: &IntervalMdp, states: &[StateId]) -> Vec<RowId> {
+    // Ranges overlap heavily: a difference array, not a loop over choices.
+    let mut depth = vec![0i64; model.rows().len() + 1];
+    for range in states.iter().flat_map(|&s| model.choices().ranges(s)) {
+        depth[range.first as usize] += 1;
+        depth[range.last as usize + 1] -= 1;
+    }
+    let mut open = 0;
+    let used = |row: &RowId| {
+        open += depth[*row as usize];
+        open > 0
+    };
+    (0..model.rows().len() as RowId).filter(used).collect()
+}
+
+struct Iteration<'a> {
+    model: &'a IntervalMdp,
+    players: Players,
+    sweep: Sweep<'a>,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+    lower_rows: RangeOptimum,
+    upper_rows: RangeOptimum,
+    results: Vec<f64>,
+    gap: f64,
+    /// Whether values can only grow from step to step.
+    monotone: bool,
+    /// The current choice of every state, if a policy is wanted, and all changes of it.
+    current: Option<Vec<u32>>,
+    changes: Vec<(StateId, u64, u32)>,
+}
+
+impl<'a> Iteration<'a> {
+    fn new(
+        model: &'a IntervalMdp,
+        players: Players,
+        states: Vec<StateId>,
+        goal: &StateSet,
+        policy: bool,
+    ) -> Self {
+        let mut table = RangeOptimum::new(players.policy, model.rows().len());
+        table.prepare(model.choices(), &states);
+        let rows = used_rows(model, &states);
+        Self {
+            model,
+            players,
+            lower: indicator(goal),
+            upper: indicator(goal),
+            lower_rows: table.clone(),
+            upper_rows: table,
+            results: vec![],
+            gap: 0.0,
+            monotone: true,
+            current: policy.then(|| vec![NO_CHOICE; model.num_states()]),
+            changes: vec![],
+            sweep: Sweep::new(model, players, states, &rows),
+        }
+    }
+
+    /// One step; returns whether any bound changed. `left` is the number of steps left in the new values.
+    fn step(&mut self, left: u64) -> bool {
+        let mut changed = false;
+        self.gap = 0.0;
+        self.sweep.evaluate_rows(&self.lower, Side::Lower, &mut self.lower_rows);
+        self.sweep.evaluate_rows(&self.upper, Side::Upper, &mut self.upper_rows);
+        self.sweep.evaluate_states(&self.lower_rows, &mut self.results);
+        for (&s, &value) in self.sweep.states.iter().zip(&self.results) {
+            let old = &mut self.lower[s as usize];
+            // The exact values do not decrease, so a decrease is rounding only.
+            let value = if self.monotone { value.max(*old) } else { value };
+            changed |= value != *old;
+            *old = value;
+        }
+        self.sweep.evaluate_states(&self.upper_rows, &mut self.results);
+        for (&s, &value) in self.sweep.states.iter().zip(&self.results) {
+            let s = s as usize;
+            changed |= value != self.upper[s];
+            self.upper[s] = value;
+            self.gap = self.gap.max(value - self.lower[s]);
+        }
+        self.update_policy(left);
+        changed
+    }
+
+    /// Replaces the choices that are no longer optimal on the side that the policy must guarantee.
+    fn update_policy(&mut self, left: u64) {
+        let Some(current) = &mut self.current else { return };
+        let optimum = self.players.policy;
+        let table = if optimum == Optimum::Max { &self.lower_rows } else { &self.upper_rows };
+        let (choices, weights) = (self.model.choices(), table.values());
+        for &s in &self.sweep.states {
+            let best = table.best(choices.ranges(s));
+            let now = &mut current[s as usize];
+            let keep = row_of_choice(choices, s, *now)
+                .is_some_and(|row| !optimum.prefers(best, weights[row as usize]));
+            if !keep && let Some(choice) = first_choice(choices, s, |row| weights[row as usize] == best) {
+                *now = choice;
+                self.changes.push((s, left, choice));
+            }
+        }
+    }
+
+    fn finish(self, steps: u64, status: Status, iterations: u64) -> Solution {
+        let states = self.model.num_states();
+        let policy = self.current.is_some().then(|| Policy::time_varying(steps, states, &self.changes));
+        Solution { values: ValueBounds { lower: self.lower, upper: self.upper }, status, iterations, policy }
+    }
+}

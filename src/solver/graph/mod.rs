@@ -1,0 +1,12 @@
+//! Where unbounded values are exactly 0 or 1, and how the rest hangs together.
+
+mod choice_tree;
+mod decide;
+mod end_components;
+mod tarjan;
+mod zero_one;
+
+pub(super) use choice_tree::ChoiceTree;
+pub(super) use end_components::{Candidates, can_stay, end_components};
+pub(super) use tarjan::strong_components;
+pub(super) use zero_one::{stays, zero_one};
