@@ -1,7 +1,7 @@
 //! What is asked of the solver.
 
 use crate::imdp::{IntervalMdp, StateSet};
-use crate::property::Resolution;
+use crate::property::{QueryKind, Resolution};
 
 /// An event whose probability is wanted, for every initial state at once.
 #[derive(Clone, Copy, Debug)]
@@ -20,6 +20,15 @@ pub enum Query<'a> {
         /// The states to be reached.
         goal: &'a StateSet,
     },
+}
+
+impl<'a> From<&'a QueryKind> for Query<'a> {
+    fn from(kind: &'a QueryKind) -> Self {
+        match kind {
+            QueryKind::Until { safe, goal, steps } => Self::Until { safe, goal, steps: *steps },
+            QueryKind::Next { goal } => Self::Next { goal },
+        }
+    }
 }
 
 /// What makes a question unanswerable.
