@@ -1,5 +1,5 @@
 //! What a compilation writes: complete, reproducible, all or nothing.
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used)]
 
 mod common;
 
