@@ -1,4 +1,56 @@
 //! From a noisy linear control system to a controller with a proof.
+//!
+//! # The problem
+//!
+//! A system `x⁺ = A x + B u + q + η` with states `x ∈ ℝⁿ`, inputs `u ∈ U ⊂ ℝᵖ` and independent noise `η` of
+//! unknown distribution, of which there are `N` samples; a goal region, an unsafe region, a number of
+//! steps. Wanted: a feedback controller that reaches the goal in time and avoids the unsafe region with at
+//! least a given probability, and a guarantee of that which holds with confidence `1 − β` over the samples.
+//!
+//! # The way there
+//!
+//! Following Badings, Romao, Abate, Jansen, *A Stability-Based Abstraction Framework for Reach-Avoid Control
+//! of Stochastic Dynamical Systems with Unknown Noise Distributions* (ECC 2024):
+//!
+//! | stage | module | what comes out |
+//! |---|---|---|
+//! | a model file is read and validated | [`spec`] | a [`Problem`](spec::Problem) |
+//! | `d` steps become one; LQR closes a lower loop | [`dynamics`] | `Â`, `B̂`, `K`, and the [`FeedbackLaw`](dynamics::FeedbackLaw) |
+//! | the state space is cut into cells | [`partition`] | a [`Grid`](partition::Grid) with exact faces, labelled cells |
+//! | samples become probability intervals | [`noise`], [`statistics`] | bounds that hold together with probability `1 − β` |
+//! | cells, targets and intervals meet | [`abstraction`] | an [`IntervalMdp`](imdp::IntervalMdp) with shared rows, and a property |
+//! | it is written for others | [`formats`], [`run_directory`] | PRISM's explicit files, a manifest |
+//! | it is solved | [`property`], [`solver`] | bounds on the robust value, a policy |
+//!
+//! What makes it fast: an action steers to a target point, so its distribution over cells does not depend
+//! on the cell it is taken in. An interval MDP with tens of millions of transitions has a few thousand
+//! distinct rows, and nothing here ever stores, hashes or solves per transition what belongs to a row.
+//!
+//! # Example
+//!
+//! ```
+//! use dynabs::{abstraction, solver, spec};
+//! use std::path::Path;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/models/room_temperature.json"));
+//! let document = spec::Document::parse(path, &std::fs::read_to_string(path)?)?;
+//! let problem = spec::Problem::from_document(&document)?;
+//! let compiled = abstraction::compile(&problem, &())?;
+//!
+//! let options = solver::SolverOptions::default();
+//! let answer = solver::Answer::new(&compiled.model, &compiled.property, &options)?;
+//! assert!(answer.lower > 0.99);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Two wings
+//!
+//! The modelling wing ([`spec`], [`dynamics`], [`partition`], [`noise`], [`statistics`] up to
+//! [`abstraction`]) and the checking wing ([`formats`], [`solver`]) meet only in [`imdp`] and [`property`]: the
+//! solver reads anyone's interval MDPs, and the compiler's models can be solved by anyone.
+
 pub mod abstraction;
 #[cfg(feature = "cli")]
 pub mod cli;

@@ -1,5 +1,5 @@
 //! Every mistake gives one clear error: which file, which field, what was found, what to do.
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used)]
 
 mod common;
 

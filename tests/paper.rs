@@ -1,5 +1,5 @@
 //! The published numbers of the method: Table I and the spacecraft of ECC 2024.
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used)]
 
 mod common;
 

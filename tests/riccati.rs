@@ -1,5 +1,5 @@
 //! The LQR gain of 200 random systems against scipy's.
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used)]
 
 mod common;
 

@@ -1,12 +1,14 @@
 //! `dynabs-compile`: from a model file to PRISM files.
 
+use super::results::{PropertyResult, exit_code, table};
+use super::solve::{LimitArguments, answer, interrupt_flag};
 use super::summary::summary;
-use super::{Bars, CliError, print};
+use super::{Bars, CliError, print, use_threads};
 use crate::abstraction::compile;
 use crate::run_directory::{Manifest, Staging, WriteOptions, write_run};
 use crate::spec::{Document, Problem, SetArgument, json_schema, starter_model};
 use clap::Parser;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -36,6 +38,10 @@ pub struct Arguments {
     /// Leave out the explicit files model.tra, model.sta and model.lab.
     #[arg(long)]
     no_tra: bool,
+
+    /// Solve the task natively as well.
+    #[arg(long)]
+    solve: bool,
 
     /// Do everything but write files.
     #[arg(long)]
@@ -67,7 +73,8 @@ pub struct Arguments {
 }
 
 const AFTER_HELP: &str = "\
-Exit codes: 0 done, 2 bad input or usage, 4 I/O or internal error.
+Exit codes: 0 done, 2 bad input or usage, 4 I/O or internal error;
+with --solve also 1 the threshold is missed, 3 undecided (limit, interrupt, bounds straddle the threshold).
 
 Examples:
   dynabs-compile --init my-model.json
@@ -86,14 +93,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
         write_starter(file, arguments.quiet)?;
     } else if let Some(model) = &arguments.model {
         use_threads(arguments.threads)?;
-        compile_model(arguments, model)?;
+        return compile_model(arguments, model);
     }
     Ok(ExitCode::SUCCESS)
-}
-
-fn use_threads(threads: Option<u16>) -> Result<(), CliError> {
-    let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from));
-    builder.build_global().map_err(|error| CliError::Failure(format!("threads: {error}")))
 }
 
 fn write_starter(file: &Path, quiet: bool) -> Result<(), CliError> {
@@ -115,7 +117,7 @@ fn write_starter(file: &Path, quiet: bool) -> Result<(), CliError> {
     Ok(())
 }
 
-fn compile_model(arguments: &Arguments, path: &Path) -> Result<(), CliError> {
+fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliError> {
     let start = Instant::now();
     let bars = Bars::new(arguments.quiet);
     if let Some(output) = arguments.output.as_deref().filter(|_| !arguments.dry_run) {
@@ -140,7 +142,16 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<(), CliError> {
         manifest = write_run(output, &document, &problem, &abstraction, manifest, options, &bars)?;
         phases.push(("files", writing.elapsed()));
     }
-    report(arguments, &manifest, &phases)
+    let mut results = Vec::new();
+    if arguments.solve {
+        let (interrupt, limits) = (interrupt_flag()?, LimitArguments::default());
+        let solving = Instant::now();
+        let (model, property) = (&abstraction.model, &abstraction.property);
+        results.push(answer(model, property, &limits, false, &interrupt, &bars)?.1);
+        phases.push(("solving", solving.elapsed()));
+    }
+    report(arguments, &manifest, &phases, &results)?;
+    Ok(exit_code(&results))
 }
 
 fn read_model(path: &Path) -> Result<String, CliError> {
@@ -178,7 +189,12 @@ fn configure(path: &Path, source: &str, arguments: &Arguments) -> Result<(Docume
     Ok((document, notes))
 }
 
-fn report(arguments: &Arguments, manifest: &Manifest, phases: &[(&str, Duration)]) -> Result<(), CliError> {
+fn report(
+    arguments: &Arguments,
+    manifest: &Manifest,
+    phases: &[(&str, Duration)],
+    results: &[PropertyResult],
+) -> Result<(), CliError> {
     if !arguments.quiet {
         let mut text = String::new();
         for warning in &manifest.warnings {
@@ -196,12 +212,16 @@ fn report(arguments: &Arguments, manifest: &Manifest, phases: &[(&str, Duration)
             .map_err(|error| CliError::Failure(format!("the manifest has no JSON form: {error}")))?;
         if let Value::Object(object) = &mut object {
             object.insert("seconds".to_owned(), Value::Object(times));
+            if arguments.solve {
+                object.insert("results".to_owned(), json!(results));
+            }
         }
         print(&format!("{object:#}\n"))
     } else if arguments.quiet {
         Ok(())
     } else {
         let directory = arguments.output.as_ref().filter(|_| !arguments.dry_run);
-        print(&summary(manifest, directory.map(|path| path.display().to_string()).as_deref()))
+        let text = summary(manifest, directory.map(|path| path.display().to_string()).as_deref());
+        print(&(text + &table(results)))
     }
 }

@@ -1,11 +1,19 @@
 //! What the command-line tools share: errors with exit codes, progress bars, tables.
 
+pub mod check;
 pub mod compile;
 mod error;
+mod exports;
+mod model_source;
 mod output;
 mod progress;
+mod results;
+pub mod solve;
 mod summary;
+mod threads;
 
 pub use error::{CliError, exit_with};
 pub use output::{print, thousands};
 pub use progress::Bars;
+pub use results::PropertyResult;
+pub use threads::use_threads;

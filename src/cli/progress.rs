@@ -7,6 +7,8 @@ use std::time::{Duration, Instant};
 
 /// Work shorter than this shows no bar.
 const PATIENCE: Duration = Duration::from_millis(500);
+/// Notes change no faster than people read.
+const NOTE_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Progress bars on stderr; none if it is not a terminal or `quiet`.
 #[derive(Debug)]
@@ -19,13 +21,42 @@ pub struct Bars {
 struct Current {
     bar: ProgressBar,
     since: Instant,
+    /// When the last note was shown, counted from `since`.
+    noted: Duration,
     shown: bool,
+}
+
+impl Current {
+    fn show_after_a_while(&mut self, quiet: bool) {
+        if !self.shown && !quiet && self.since.elapsed() > PATIENCE {
+            // indicatif draws nothing where stderr is not a terminal.
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+            self.shown = true;
+        }
+    }
 }
 
 impl Bars {
     /// Bars, unless `quiet`.
     pub fn new(quiet: bool) -> Self {
         Self { quiet, current: Mutex::new(None) }
+    }
+
+    /// Shows what an iteration without a known end is doing; `text` is asked for only when it is shown.
+    pub fn note(&self, text: impl FnOnce() -> String) {
+        self.with(|current| {
+            let current = current.get_or_insert_with(|| {
+                let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+                bar.set_style(ProgressStyle::default_spinner());
+                Current { bar, since: Instant::now(), noted: Duration::ZERO, shown: false }
+            });
+            current.show_after_a_while(self.quiet);
+            if current.shown && current.since.elapsed() > current.noted + NOTE_INTERVAL {
+                current.noted = current.since.elapsed();
+                current.bar.set_message(text());
+                current.bar.tick();
+            }
+        });
     }
 
     fn with(&self, action: impl FnOnce(&mut Option<Current>)) {
@@ -39,18 +70,16 @@ impl Progress for Bars {
         let style = ProgressStyle::with_template("{msg:16} {bar:40} {percent:>3} %  {eta} left");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         bar.set_message(phase.to_owned());
-        self.with(|current| *current = Some(Current { bar, since: Instant::now(), shown: false }));
+        self.with(|current| {
+            *current = Some(Current { bar, since: Instant::now(), noted: Duration::ZERO, shown: false })
+        });
     }
 
     fn advance(&self, units: u64) {
         self.with(|current| {
             let Some(current) = current else { return };
             current.bar.inc(units);
-            if !current.shown && !self.quiet && current.since.elapsed() > PATIENCE {
-                // indicatif draws nothing where stderr is not a terminal.
-                current.bar.set_draw_target(ProgressDrawTarget::stderr());
-                current.shown = true;
-            }
+            current.show_after_a_while(self.quiet);
         });
     }
 

@@ -8,4 +8,4 @@ mod write;
 pub use hashing::{HashingWriter, sha256_hex};
 pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile, ProbabilityReport};
 pub use staging::{RunDirectoryError, Staging};
-pub use write::{WriteOptions, write_run};
+pub use write::{NATIVE_MODEL, WriteOptions, write_run};

@@ -3,6 +3,7 @@
 use super::manifest::Manifest;
 use super::staging::{RunDirectoryError, Staging};
 use crate::abstraction::Abstraction;
+use crate::formats::native;
 use crate::formats::prism::{MAX_COUNT, TraWriter, write_lab, write_sta};
 use crate::progress::Progress;
 use crate::spec::{Document, Problem};
@@ -18,10 +19,13 @@ pub struct WriteOptions {
     pub force: bool,
 }
 
+/// The name of the native model in a run's directory.
+pub const NATIVE_MODEL: &str = "model.dynabs";
+
 /// The name of the noise samples in a run's directory.
 const NOISE: &str = "noise.csv";
 
-/// Writes the directory `target`: PRISM's files, the property, the problem, the samples, the manifest.
+/// Writes the directory `target`: PRISM's files, the native model, the property, the problem, the samples, the manifest.
 ///
 /// Returns the manifest with the list of files. Either all files appear or none.
 ///
@@ -55,6 +59,7 @@ pub fn write_run(
         staging.write("model.sta", |out| write_sta(model, out))?;
         staging.write("model.lab", |out| write_lab(model, out))?;
     }
+    staging.write(NATIVE_MODEL, |out| native::write(model, out))?;
     staging.write("model.props", |out| writeln!(out, "{}", abstraction.property))?;
     staging.write("problem.json", |out| out.write_all(self_contained(document, problem).as_bytes()))?;
     staging.write(NOISE, |out| match &problem.noise.file {

@@ -18,6 +18,7 @@
 //!
 //! Both bounds hold whenever and however the computation ends; [`Status`] tells how it ended.
 
+mod answer;
 mod bounded;
 mod component;
 mod expectation;
@@ -32,6 +33,7 @@ mod solution;
 mod sweep;
 mod unbounded;
 
+pub use answer::{Answer, AnswerError};
 pub use options::{SolverOptions, Status};
 pub use policy::Policy;
 pub use query::{Query, SolveError};

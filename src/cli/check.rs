@@ -1,0 +1,39 @@
+//! `dynabs-check`: its subcommands.
+
+use super::solve::{SolveArguments, run as solve};
+use super::{CliError, use_threads};
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Solve interval MDPs and interval DTMCs by robust value iteration, with bounds from below and above.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "dynabs-check", version, after_help = AFTER_HELP)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+
+    /// Use this many threads; no result depends on it.
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
+#[derive(Clone, Debug, Subcommand)]
+enum Command {
+    /// Solve properties of a compiled model or of explicit PRISM files.
+    Solve(SolveArguments),
+}
+
+const AFTER_HELP: &str = "\
+Exit codes: 0 done (and every property true), 1 a property is false at an initial state or a comparison differs,
+2 bad input or usage, 3 undecided (limit, interrupt, or the bounds straddle the threshold), 4 I/O or internal error.";
+
+/// Runs the tool.
+///
+/// # Errors
+/// [`CliError`], which knows its exit code.
+pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
+    use_threads(arguments.threads)?;
+    match &arguments.command {
+        Command::Solve(arguments) => solve(arguments),
+    }
+}

@@ -1,0 +1,115 @@
+//! Values and policies as files, in PRISM's forms.
+
+use super::CliError;
+use crate::imdp::{ActionNames, IntervalMdp, StateId};
+use crate::property::Verdict;
+use crate::solver::{Answer, Policy};
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+use tempfile::NamedTempFile;
+
+/// Writes one line per state: its lower bound, or for thresholds `true`, `false` or `undecided`.
+///
+/// The form of PRISM's `-exportvector`.
+///
+/// # Errors
+/// [`CliError::Failure`] if writing fails.
+pub(super) fn write_values(path: &Path, model: &IntervalMdp, answer: &Answer) -> Result<(), CliError> {
+    replace(path, |out| {
+        for state in 0..model.num_states() as StateId {
+            match answer.verdict_of(state) {
+                None => {
+                    let value = answer.solution.values.lower[state as usize];
+                    writeln!(out, "{}", crate::numeric::shortest_decimal(value))?;
+                }
+                Some(Verdict::Holds) => writeln!(out, "true")?,
+                Some(Verdict::Fails) => writeln!(out, "false")?,
+                Some(Verdict::Unknown) => writeln!(out, "undecided")?,
+            }
+        }
+        Ok(())
+    })
+}
+
+/// Writes `state=action`, or `state,step=action` for a policy that changes over time.
+///
+/// The form of PRISM's `-exportstrat f:type=actions,states=false`; a step counts the steps elapsed. A choice
+/// without a name is given by its index.
+///
+/// # Errors
+/// [`CliError::Failure`] if writing fails.
+pub(super) fn write_policy(path: &Path, model: &IntervalMdp, policy: &Policy) -> Result<(), CliError> {
+    let first_choices = first_choices(model);
+    replace(path, |out| {
+        for state in 0..model.num_states() as StateId {
+            let name = |choice: u32| {
+                let row = policy_row(model, state, choice);
+                action_name(model, first_choices[state as usize] + u64::from(choice), row, choice)
+            };
+            match policy.horizon() {
+                None => {
+                    if let Some(choice) = policy.choice(state, 0) {
+                        writeln!(out, "{state}={}", name(choice))?;
+                    }
+                }
+                Some(horizon) => {
+                    for step in 0..horizon {
+                        if let Some(choice) = policy.choice(state, step) {
+                            writeln!(out, "{state},{step}={}", name(choice))?;
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
+    })
+}
+
+/// Per state, the number of choices of the states before it.
+fn first_choices(model: &IntervalMdp) -> Vec<u64> {
+    let choices = model.choices();
+    let mut total = 0;
+    let of_state = |state: StateId| {
+        let first = total;
+        total += choices.ranges(state).iter().map(|range| range.len() as u64).sum::<u64>();
+        total += u64::from(choices.is_absorbing(state));
+        first
+    };
+    (0..model.num_states() as StateId).map(of_state).collect()
+}
+
+fn policy_row(model: &IntervalMdp, state: StateId, choice: u32) -> Option<u32> {
+    model.choices().rows(state).nth(choice as usize)
+}
+
+fn action_name(model: &IntervalMdp, index: u64, row: Option<u32>, choice: u32) -> String {
+    match model.actions() {
+        ActionNames::OfRow => row.map_or_else(|| choice.to_string(), |row| format!("a_{row}")),
+        ActionNames::None => choice.to_string(),
+        ActionNames::OfChoice { names, ids } => {
+            let id = ids.get(index as usize).copied().unwrap_or(ActionNames::UNNAMED);
+            names.get(id as usize).cloned().unwrap_or_else(|| choice.to_string())
+        }
+    }
+}
+
+/// Writes a file beside its place and renames it: nobody ever sees half of it.
+fn replace(path: &Path, fill: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result<(), CliError> {
+    let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let write = || {
+        let mut builder = tempfile::Builder::new();
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            builder.permissions(std::fs::Permissions::from_mode(0o666));
+        }
+        let file: NamedTempFile = builder.tempfile_in(directory)?;
+        let mut out = BufWriter::new(file.as_file());
+        fill(&mut out)?;
+        out.flush()?;
+        drop(out);
+        file.persist(path).map_err(|error| error.error)
+    };
+    write().map(drop).map_err(|error| CliError::Failure(format!("{}: {error}", path.display())))
+}

@@ -1,0 +1,107 @@
+//! Where a model to be solved comes from: a run directory or explicit files.
+
+use super::{Bars, CliError};
+use crate::formats::{native, prism};
+use crate::imdp::IntervalMdp;
+use crate::progress::Progress;
+use crate::run_directory::{Manifest, NATIVE_MODEL};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A model and where it was found.
+pub(super) struct LoadedModel {
+    pub(super) model: IntervalMdp,
+    pub(super) warnings: Vec<String>,
+    /// The file of properties that belongs to it, if there is one.
+    pub(super) properties: PathBuf,
+}
+
+/// Loads a model: a directory's native file (or its `.tra` if `explicit`), or a `.tra` file.
+///
+/// # Errors
+/// [`CliError::Input`] if nothing usable is there or it is malformed.
+pub(super) fn load(path: &Path, explicit: bool, bars: &Bars) -> Result<LoadedModel, CliError> {
+    let shown = path.display();
+    if path.is_dir() {
+        return load_directory(path, explicit, bars);
+    }
+    if !path.exists() {
+        return Err(CliError::Input(format!(
+            "{shown}: found nothing; expected a directory written by dynabs-compile or a .tra file"
+        )));
+    }
+    match path.extension().and_then(|extension| extension.to_str()) {
+        Some("tra") => load_explicit(path, bars),
+        Some("dynabs") => load_native(path),
+        _ => Err(CliError::Input(format!(
+            "{shown}: found a file that is not .tra; expected a directory written by dynabs-compile or a .tra file"
+        ))),
+    }
+}
+
+fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<LoadedModel, CliError> {
+    let (native, tra) = (directory.join(NATIVE_MODEL), directory.join("model.tra"));
+    if native.exists() && !explicit {
+        return load_native(&native);
+    }
+    if !tra.exists() {
+        let wanted =
+            if explicit { "model.tra (it was left out by --no-tra)" } else { "model.dynabs or model.tra" };
+        return Err(CliError::Input(format!(
+            "{}: found no {wanted}; expected a compiled model",
+            directory.display()
+        )));
+    }
+    let mut loaded = load_explicit(&tra, bars)?;
+    let manifest = fs::read(directory.join("manifest.json")).ok();
+    let manifest = manifest.and_then(|bytes| serde_json::from_slice::<Manifest>(&bytes).ok());
+    if let Some(manifest) = manifest
+        && loaded.model.rows().iter().any(|row| row.lower.contains(&manifest.prism_lower_bound))
+    {
+        loaded.warnings.push(raised_bounds(&manifest, &loaded.model));
+    }
+    Ok(loaded)
+}
+
+/// What raising lower bounds of 0 for PRISM can do to the values of this file.
+fn raised_bounds(manifest: &Manifest, model: &IntervalMdp) -> String {
+    let raised = manifest.prism_lower_bound;
+    let longest = model.rows().iter().map(|row| row.len()).max().unwrap_or(0);
+    match manifest.horizon {
+        Some(horizon) => format!(
+            "model.tra has lower bounds of {raised:e} where the model has 0: within {} steps that changes a value by at \
+             most {:.1e}",
+            horizon.model_steps,
+            horizon.model_steps as f64 * longest as f64 * raised
+        ),
+        None => format!(
+            "model.tra has lower bounds of {raised:e} where the model has 0: without a bound on the steps its values can \
+             be others altogether; those of the model are computed without --explicit"
+        ),
+    }
+}
+
+fn load_native(path: &Path) -> Result<LoadedModel, CliError> {
+    let model = native::read(path).map_err(|error| match error {
+        native::NativeError::Io { .. } => CliError::Failure(error.to_string()),
+        _ => CliError::Input(error.to_string()),
+    })?;
+    Ok(LoadedModel { model, warnings: vec![], properties: path.with_extension("props") })
+}
+
+fn load_explicit(tra: &Path, bars: &Bars) -> Result<LoadedModel, CliError> {
+    let bytes = fs::metadata(tra).map_or(0, |metadata| metadata.len());
+    bars.start("reading", bytes);
+    let mut before = 0;
+    let imported = prism::import_with_progress(tra, None, None, &mut |read| {
+        bars.advance(read.saturating_sub(before));
+        before = read;
+    });
+    bars.finish();
+    let imported = imported.map_err(|error| match error {
+        prism::ImportError::Io { .. } => CliError::Failure(error.to_string()),
+        _ => CliError::Input(error.to_string()),
+    })?;
+    let warnings = imported.warnings.iter().map(ToString::to_string).collect();
+    Ok(LoadedModel { model: imported.model, warnings, properties: tra.with_extension("props") })
+}

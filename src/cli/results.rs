@@ -1,0 +1,103 @@
+//! Answers as they are printed: a table for people, objects for programs.
+
+use crate::property::{Property, Verdict};
+use crate::solver::{Answer, Status};
+use serde::{Deserialize, Serialize};
+use std::fmt::Write as _;
+use std::process::ExitCode;
+use std::time::Duration;
+
+/// The answer to one property.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PropertyResult {
+    /// The property in PRISM's syntax.
+    pub property: String,
+    /// The least lower bound of all initial states.
+    pub lower: f64,
+    /// The greatest upper bound of all initial states.
+    pub upper: f64,
+    /// For thresholds: whether they hold in all initial states; `null` if undecided or not asked.
+    pub satisfied: Option<bool>,
+    /// How the computation ended.
+    pub status: String,
+    /// The number of iterations.
+    pub steps: u64,
+    /// How long it took.
+    pub seconds: f64,
+    /// Whether the question was answered: it ended by itself and no threshold lies between the bounds.
+    #[serde(skip, default)]
+    decided: bool,
+}
+
+impl PropertyResult {
+    /// Summarises an answer.
+    pub fn new(property: &Property, answer: &Answer, time: Duration) -> Self {
+        let status = answer.solution.status;
+        let ended = matches!(status, Status::HorizonReached | Status::Converged);
+        Self {
+            property: property.to_string(),
+            lower: answer.lower,
+            upper: answer.upper,
+            satisfied: match answer.verdict {
+                Some(Verdict::Holds) => Some(true),
+                Some(Verdict::Fails) => Some(false),
+                Some(Verdict::Unknown) | None => None,
+            },
+            status: status_name(status).to_owned(),
+            steps: answer.solution.iterations,
+            seconds: time.as_secs_f64(),
+            decided: match answer.verdict {
+                None => ended,
+                Some(verdict) => verdict != Verdict::Unknown,
+            },
+        }
+    }
+}
+
+fn status_name(status: Status) -> &'static str {
+    match status {
+        Status::HorizonReached => "horizon reached",
+        Status::Converged => "converged",
+        Status::PrecisionLimit => "precision limit",
+        Status::IterationLimit => "iteration limit",
+        Status::TimeLimit => "time limit",
+        Status::Interrupted => "interrupted",
+    }
+}
+
+/// 1 if a property is false, else 3 if one is undecided, else 0.
+pub(super) fn exit_code(results: &[PropertyResult]) -> ExitCode {
+    if results.iter().any(|result| result.satisfied == Some(false)) {
+        ExitCode::from(1)
+    } else if results.iter().any(|result| !result.decided) {
+        ExitCode::from(3)
+    } else {
+        ExitCode::SUCCESS
+    }
+}
+
+/// The results as a table.
+pub(super) fn table(results: &[PropertyResult]) -> String {
+    let mut text = String::new();
+    for result in results {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}", result.property);
+        let width = result.upper - result.lower;
+        let digits = if width > 0.0 { (2.0 - width.log10()).clamp(6.0, 17.0) as usize } else { 12 };
+        let verdict = match (result.satisfied, result.decided) {
+            (Some(satisfied), _) => format!("{satisfied}   "),
+            (None, true) => String::new(),
+            (None, false) => "undecided   ".to_owned(),
+        };
+        let _ = writeln!(
+            text,
+            "  {verdict}value in [{:.digits$}, {:.digits$}] at the initial state   {}, {} steps, {:.1?}",
+            result.lower,
+            result.upper,
+            result.status,
+            result.steps,
+            Duration::from_secs_f64(result.seconds),
+        );
+    }
+    text
+}

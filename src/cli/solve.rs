@@ -1,0 +1,216 @@
+//! `dynabs-check solve`: properties of a model.
+
+use super::exports::{write_policy, write_values};
+use super::model_source::load;
+use super::results::{PropertyResult, exit_code, table};
+use super::{Bars, CliError, print};
+use crate::imdp::IntervalMdp;
+use crate::progress::Progress;
+use crate::property::{Property, parse_properties, parse_property};
+use crate::solver::{Answer, SolverOptions};
+use clap::Args;
+use serde_json::{Value, json};
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// What to solve and how.
+#[derive(Clone, Debug, Args)]
+pub struct SolveArguments {
+    /// A directory written by dynabs-compile, or a .tra file with .sta and .lab beside it.
+    path: PathBuf,
+
+    /// A property in PRISM's syntax, or a .props file; repeatable. Default: the .props file of the model.
+    #[arg(short, long = "property", value_name = "PROPERTY")]
+    properties: Vec<String>,
+
+    /// Read model.tra of a directory instead of its native file.
+    #[arg(long)]
+    explicit: bool,
+
+    /// Write the lower bound of every state, or true/false, one per line (for one property).
+    #[arg(long, value_name = "FILE")]
+    values: Option<PathBuf>,
+
+    /// Write the policy as `state=action` or `state,step=action` (for one property).
+    #[arg(long, value_name = "FILE")]
+    policy: Option<PathBuf>,
+
+    #[command(flatten)]
+    limits: LimitArguments,
+
+    /// Print one JSON object instead of the table.
+    #[arg(long)]
+    json: bool,
+
+    /// Print nothing but errors (and the object of --json).
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// When to stop.
+#[derive(Clone, Debug, Args)]
+pub struct LimitArguments {
+    /// Unbounded properties: stop when the bounds are this close, absolutely.
+    #[arg(long, value_name = "E", default_value_t = 1e-6, value_parser = positive)]
+    epsilon: f64,
+
+    /// Stop after this many iterations.
+    #[arg(long, value_name = "N")]
+    max_iterations: Option<u64>,
+
+    /// Stop each property after this many seconds.
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    time_limit: Option<f64>,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|x| x.is_finite() && *x > 0.0);
+    number.ok_or_else(|| "expected a positive number".to_owned())
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// [`CliError`], which knows its exit code.
+pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
+    let bars = Bars::new(arguments.quiet);
+    let start = Instant::now();
+    let loaded = load(&arguments.path, arguments.explicit, &bars)?;
+    let reading = start.elapsed();
+    let properties = properties(arguments, &loaded.properties)?;
+    if (arguments.values.is_some() || arguments.policy.is_some()) && properties.len() != 1 {
+        let found = properties.len();
+        return Err(CliError::Input(format!(
+            "--values, --policy: found {found} properties; expected one, chosen by -p"
+        )));
+    }
+    if !arguments.quiet {
+        let warnings: String =
+            loaded.warnings.iter().map(|warning| format!("warning: {warning}\n")).collect();
+        // If stderr is closed there is nobody to warn.
+        let _ = io::stderr().write_all(warnings.as_bytes());
+    }
+    let wants_policy = arguments.policy.is_some();
+    let mut results = Vec::with_capacity(properties.len());
+    let interrupt = interrupt_flag()?;
+    for property in &properties {
+        let (answer, result) =
+            answer(&loaded.model, property, &arguments.limits, wants_policy, &interrupt, &bars)?;
+        if let Some(path) = &arguments.values {
+            write_values(path, &loaded.model, &answer)?;
+        }
+        if let (Some(path), Some(policy)) = (&arguments.policy, &answer.solution.policy) {
+            write_policy(path, &loaded.model, policy)?;
+        }
+        results.push(result);
+    }
+    if arguments.json {
+        print(&format!("{:#}\n", report(&loaded.model, &results, &loaded.warnings, reading)))?;
+    } else if !arguments.quiet {
+        print(&table(&results))?;
+        let _ =
+            writeln!(io::stderr(), "times: reading {reading:.1?}, solving {:.1?}", start.elapsed() - reading);
+    }
+    Ok(exit_code(&results))
+}
+
+/// Answers one property, with the current gap on display.
+pub(super) fn answer(
+    model: &IntervalMdp,
+    property: &Property,
+    limits: &LimitArguments,
+    policy: bool,
+    interrupt: &AtomicBool,
+    bars: &Bars,
+) -> Result<(Answer, PropertyResult), CliError> {
+    let start = Instant::now();
+    let progress =
+        |iteration, gap: f64| bars.note(|| format!("iteration {iteration}, bounds {gap:.1e} apart"));
+    let options = SolverOptions {
+        epsilon: limits.epsilon,
+        max_iterations: limits.max_iterations.unwrap_or(u64::MAX),
+        time_limit: limits.time_limit.map(Duration::from_secs_f64),
+        interrupt: Some(interrupt),
+        progress: Some(&progress),
+        policy,
+    };
+    let answer = Answer::new(model, property, &options);
+    bars.finish();
+    let answer = answer.map_err(|error| CliError::Input(format!("{property}: {error}")))?;
+    let result = PropertyResult::new(property, &answer, start.elapsed());
+    Ok((answer, result))
+}
+
+/// Set by the first Ctrl-C, so that the bounds so far are printed; the second one ends the program.
+pub(super) fn interrupt_flag() -> Result<Arc<AtomicBool>, CliError> {
+    let flag = Arc::new(AtomicBool::new(false));
+    let seen = Arc::clone(&flag);
+    ctrlc::set_handler(move || {
+        if seen.swap(true, Ordering::Relaxed) {
+            std::process::exit(3);
+        }
+    })
+    .map_err(|error| CliError::Failure(format!("Ctrl-C: {error}")))?;
+    Ok(flag)
+}
+
+impl Default for LimitArguments {
+    fn default() -> Self {
+        Self { epsilon: SolverOptions::default().epsilon, max_iterations: None, time_limit: None }
+    }
+}
+
+fn properties(arguments: &SolveArguments, beside: &Path) -> Result<Vec<Property>, CliError> {
+    if arguments.properties.is_empty() {
+        if !beside.exists() {
+            return Err(CliError::Input(format!(
+                "{}: found no such file; expected properties there or with -p, for example -p 'Pmaxmin=? [ F \"goal\" ]'",
+                beside.display()
+            )));
+        }
+        return read_properties(beside);
+    }
+    let mut properties = Vec::new();
+    for text in &arguments.properties {
+        if Path::new(text).extension().is_some_and(|extension| extension == "props") {
+            properties.extend(read_properties(Path::new(text))?);
+        } else {
+            properties.push(parse_property(text).map_err(|error| CliError::Input(format!("-p: {error}")))?);
+        }
+    }
+    Ok(properties)
+}
+
+fn read_properties(path: &Path) -> Result<Vec<Property>, CliError> {
+    let shown = path.display();
+    let text = fs::read_to_string(path).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::InvalidData => {
+            CliError::Input(format!("{shown}: {error}; expected a file of properties"))
+        }
+        _ => CliError::Failure(format!("{shown}: {error}")),
+    })?;
+    let properties = parse_properties(&text).map_err(|error| CliError::Input(format!("{shown}: {error}")))?;
+    if properties.is_empty() {
+        return Err(CliError::Input(format!("{shown}: found no property; expected at least one")));
+    }
+    Ok(properties)
+}
+
+fn report(model: &IntervalMdp, results: &[PropertyResult], warnings: &[String], reading: Duration) -> Value {
+    let size = model.size();
+    json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "states": size.states,
+        "choices": size.choices,
+        "transitions": size.transitions,
+        "rows": size.rows,
+        "results": results,
+        "warnings": warnings,
+        "seconds": {"reading": reading.as_secs_f64()},
+    })
+}
