@@ -124,7 +124,7 @@ def report(results, transitions):
         ratio = own_seconds / seconds
         per_transition = own_peak / transitions
         print(f"{name:8} {own_seconds:8.2f} {ratio:6.1f} {own_peak / 1e6:8.0f} {per_transition:16.1f}  {own_value:.15f}")
-    checks = [(f"{name} agrees to 1e-9", abs(other - value) <= 1e-9) for name, (_, _, other) in results.items()]
+    checks = [(f"{name} agrees to 1e-12", abs(other - value) <= 1e-12) for name, (_, _, other) in results.items()]
     for name, factor in (("Storm", 4), ("PRISM", 10)):
         if name in results:
             checks.append((f"1/{factor} of {name}'s time", results[name][0] >= factor * seconds))

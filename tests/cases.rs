@@ -99,9 +99,13 @@ impl Case {
             let values: Vec<_> = self.variables.values().map(|values| values[state].to_string()).collect();
             let values = if values.is_empty() { state.to_string() } else { values.join(",") };
             writeln!(sta, "{state}:({values})").unwrap();
-            let labels = std::iter::once(&self.labels["init"]).chain(others.iter().map(|(_, states)| *states));
-            let held: Vec<_> =
-                labels.enumerate().filter(|(_, of)| of.contains(&state)).map(|(i, _)| i.to_string()).collect();
+            let labels =
+                std::iter::once(&self.labels["init"]).chain(others.iter().map(|(_, states)| *states));
+            let held: Vec<_> = labels
+                .enumerate()
+                .filter(|(_, of)| of.contains(&state))
+                .map(|(i, _)| i.to_string())
+                .collect();
             if !held.is_empty() {
                 writeln!(lab, "{state}: {}", held.join(" ")).unwrap();
             }
@@ -159,11 +163,8 @@ fn bounds(model: &IntervalMdp, text: &str, at: &str) -> (Vec<(f64, f64)>, Option
         assert!(upper - lower <= epsilon + f64::EPSILON, "{at}: [{lower},{upper}]");
     }
     let verdict = objective.threshold.map(|threshold| {
-        let verdicts: Vec<_> = model
-            .initial()
-            .ones()
-            .map(|state| threshold.decide(bounds[state].0, bounds[state].1))
-            .collect();
+        let verdicts: Vec<_> =
+            model.initial().ones().map(|state| threshold.decide(bounds[state].0, bounds[state].1)).collect();
         let all_hold = verdicts.iter().all(|&verdict| verdict == Verdict::Holds);
         match all_hold {
             true => Verdict::Holds,

@@ -10,6 +10,10 @@ class Failure(Exception):
     """A solver did not answer."""
 
 
+class NotConverged(Failure):
+    """A solver gave up."""
+
+
 class Dynabs:
     """`dynabs-check solve`."""
 
@@ -45,23 +49,24 @@ class Prism:
 
     name = "PRISM"
 
-    def __init__(self, command, epsilon):
-        # Stops when no value changes by more than epsilon (relatively): no bound on the error.
-        self.options = ["-ex", "-epsilon", str(epsilon), "-maxiters", "1000000000", "-javamaxmem", "4g"]
+    def __init__(self, command):
         self.command = command
 
-    def start(self, stem, arguments):
+    def start(self, stem, arguments, epsilon, iterations):
+        # It stops when no value changes by more than epsilon (relatively): no bound on the error.
+        options = ["-ex", "-epsilon", str(epsilon), "-maxiters", str(iterations), "-javamaxmem", "4g"]
         files = f"{stem.with_suffix('.tra')},sta,lab"
-        done = subprocess.run(
-            [self.command, "-importmodel", files, *self.options, *arguments], capture_output=True, text=True
-        )
+        command = [self.command, "-importmodel", files, *options, *arguments]
+        done = subprocess.run(command, capture_output=True, text=True)
         return done.stdout + done.stderr
 
     def values(self, stem, prop):
         out = stem.with_suffix(".prism-values")
         out.unlink(missing_ok=True)
-        log = self.start(stem, ["-pf", prop, "-exportvector", str(out)])
+        log = self.start(stem, ["-pf", prop, "-exportvector", str(out)], 1e-12, 200_000)
         if not out.exists():
+            if "did not converge" in log:
+                raise NotConverged("PRISM did not converge within 200000 iterations")
             raise Failure(f"{prop}: {error_in(log)}")
         return [float(line) for line in out.read_text().split()]
 
@@ -70,7 +75,7 @@ class Prism:
         path = stem.with_suffix(".props")
         path.write_text("\n".join(f"{prop};" for prop in props) + "\n")
         # A property's output starts with its text.
-        sections = re.split(r"^Model checking: .*$", self.start(stem, [str(path)]), flags=re.MULTILINE)
+        sections = re.split(r"^Model checking: .*$", self.start(stem, [str(path)], 1e-13, 1_000_000_000), flags=re.MULTILINE)
         if len(sections) != len(props) + 1:
             raise Failure(error_in(sections[-1]))
         return [result_in(section) for section in sections[1:]]

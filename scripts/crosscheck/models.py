@@ -117,29 +117,26 @@ def random_row(rng, states, own, zeros):
         # Slowish: nearly everything stays.
         if own not in successors:
             successors[0] = own
-        leave = [0 if s == own else rng.randint(1, 5) for s in successors]
+        leave = [0 if s == own else rng.randint(3, 9) for s in successors]
         return sorted(
-            (s, *map(thousandths, (970, 1000 - sum(leave)) if s == own else (share, share * rng.randint(2, 6))))
+            (s, *map(thousandths, (900, 1000 - sum(leave)) if s == own else (share, share * rng.randint(2, 4))))
             for s, share in zip(successors, leave)
         )
-    cuts = sorted(rng.randint(1, 49) for _ in successors[1:])
-    shares = [20 * (b - a) for a, b in zip([0, *cuts], [*cuts, 50])]
+    # Shares of at least 0.1, of which 0.06 are certain: an adversary could make smaller ones too slow to wait for.
+    cuts = sorted(rng.sample(range(1, 10), len(successors) - 1))
+    shares = [100 * (b - a) for a, b in zip([0, *cuts], [*cuts, 10])]
     spread = 0 if rng.random() < 0.15 else rng.choice((40, 100, 300))
     row = []
     for successor, share in zip(successors, shares):
-        lower, upper = max(0, share - spread), min(1000, share + spread)
-        if not zeros or rng.random() < 0.5:
-            lower = max(lower, min(share, 1 if spread == 0 else 20))
-        if lower == 0 and upper == 0 or (not zeros and lower == 0):
-            continue
-        row.append((successor, thousandths(lower), thousandths(upper)))
+        lower = max(share - spread, 0 if zeros and rng.random() < 0.5 else 60)
+        row.append((successor, thousandths(lower), thousandths(min(1000, share + spread))))
     return sorted(row)
 
 
 def random_model(seed, zeros):
     """A small model with goal and bad states, deadlocks, ties and end components; zeros: lower bounds of 0."""
     rng = random.Random(f"{seed} {zeros}")
-    size = rng.randint(2, 10)
+    size = rng.randint(2, 9)
     states = []
     for state in range(size):
         if rng.random() < 0.1:
