@@ -1,6 +1,7 @@
 //! What the command-line tools share: errors with exit codes, progress bars, tables.
 
 pub mod compile;
+pub mod diff;
 mod error;
 mod output;
 mod progress;
