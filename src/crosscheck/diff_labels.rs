@@ -32,6 +32,14 @@ pub(super) fn diff_labels(left: &IntervalMdp, right: &IntervalMdp, options: &Dif
 }
 
 fn diff_sets(name: &str, a: &StateSet, b: &StateSet, section: &mut Section) {
+    if a.len() != b.len() {
+        // States of different models do not correspond; how many there are can still be told.
+        let by = a.count_ones(..).abs_diff(b.count_ones(..));
+        if by > 0 {
+            section.add(1, Some(by as f64), || (name.to_owned(), states(a), states(b)));
+        }
+        return;
+    }
     let mut different = a.symmetric_difference(b).peekable();
     let Some(&first) = different.peek() else { return };
     let count = different.count();
@@ -48,6 +56,9 @@ fn diff_integers(left: &IntervalMdp, right: &IntervalMdp, section: &mut Section)
         let (VariableValues::Int(a), Some(VariableValues::Int(b))) = (&variable.values, other) else {
             continue;
         };
+        if a.len() != b.len() {
+            continue;
+        }
         section.compared += 1;
         let count = a.iter().zip(b).filter(|(a, b)| a != b).count();
         if let Some(first) = a.iter().zip(b).position(|(a, b)| a != b) {

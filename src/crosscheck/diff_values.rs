@@ -23,7 +23,7 @@ pub(super) fn diff_results(left: &Record, right: &Record, options: &DiffOptions,
 }
 
 fn diff_result(a: &RecordedResult, b: &RecordedResult, options: &DiffOptions, section: &mut Section) {
-    section.compared += 1;
+    section.compared += 4;
     let numbers = [("lower", a.lower, b.lower), ("upper", a.upper, b.upper)];
     for (what, x, y) in numbers {
         if let Some(by) = options.tolerance.excess(x, y) {
@@ -48,7 +48,7 @@ pub(super) fn diff_values(left: &Record, right: &Record, options: &DiffOptions, 
     let mut section = Section::new("values", options.most);
     let lengths = match (a, b) {
         (Values::Numbers(a), Values::Numbers(b)) => {
-            for (state, (&x, &y)) in a.iter().zip(b).enumerate() {
+            for (state, (&x, &y)) in a.iter().zip(b).enumerate().take(comparable(a.len(), b.len())) {
                 if let Some(by) = options.tolerance.excess(x, y) {
                     section.add(1, Some(by), || (format!("state {state}"), x.to_string(), y.to_string()));
                 }
@@ -56,7 +56,9 @@ pub(super) fn diff_values(left: &Record, right: &Record, options: &DiffOptions, 
             (a.len(), b.len())
         }
         (Values::Verdicts(a), Values::Verdicts(b)) => {
-            for (state, (x, y)) in a.iter().zip(b).enumerate().filter(|(_, (x, y))| x != y) {
+            for (state, (x, y)) in
+                a.iter().zip(b).enumerate().take(comparable(a.len(), b.len())).filter(|(_, (x, y))| x != y)
+            {
                 section.add(1, None, || (format!("state {state}"), x.clone(), y.clone()));
             }
             (a.len(), b.len())
@@ -66,10 +68,15 @@ pub(super) fn diff_values(left: &Record, right: &Record, options: &DiffOptions, 
             return;
         }
     };
-    section.compared = lengths.0.min(lengths.1) as u64;
+    section.compared = comparable(lengths.0, lengths.1).max(1) as u64;
     if lengths.0 != lengths.1 {
         let states = |n: usize| format!("{n} states");
         section.add(1, None, || ("the number of values".into(), states(lengths.0), states(lengths.1)));
     }
     out.sections.push(section);
+}
+
+/// How many states can be compared: those of different models do not correspond.
+fn comparable(left: usize, right: usize) -> usize {
+    if left == right { left } else { 0 }
 }

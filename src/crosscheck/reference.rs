@@ -70,7 +70,7 @@ impl Reference {
         let states = self.sizes.states;
         let lengths = [("choices", self.model.choices.len()), ("values", self.values.len())];
         match lengths.into_iter().find(|&(_, length)| length as u64 != states) {
-            Some((list, 0)) if list == "values" => Ok(()),
+            Some(("values", 0)) => Ok(()),
             Some((list, length)) => Err(format!("{length} {list} for {states} states")),
             None => Ok(()),
         }
