@@ -36,7 +36,8 @@ fn oddities_are_accepted() {
         (TRA.trim_end().to_owned(), STA.trim_end().to_owned(), LAB.trim_end().to_owned()),
         (crlf(TRA).trim_end().to_owned(), crlf(STA).trim_end().to_owned(), crlf(LAB).trim_end().to_owned()),
         (format!("{TRA}\n\n"), format!("{STA}\n"), format!("{LAB}\r\n")),
-        (format!("# Transitions (IMDP)\n#\n{TRA}"), STA.to_owned(), LAB.to_owned()),
+        // As PRISM exports them.
+        (format!("# Transitions (IMDP)\n#\n{TRA}"), format!("# States\n{STA}"), format!("# Labels\n{LAB}")),
         (TRA.replace("[1,1]", "1"), STA.to_owned(), LAB.to_owned()),
         (TRA.replace("[1,1]", "[1.0,1e0]"), STA.to_owned(), LAB.to_owned()),
         (TRA.to_owned(), STA.to_owned(), LAB.replace("0: 0\n1: 2\n", "1: 2\n0: 0\n")),

@@ -22,7 +22,8 @@ pub struct Imported {
 /// Transitions: `states choices transitions`, then `src choice dst [lo,hi] action` line by line, the action
 /// being optional and a plain number standing for an interval without width. With `states transitions` and
 /// lines `src dst [lo,hi]` the model is an interval DTMC. Where `sta` or `lab` is not given, the file of the
-/// same stem beside the transitions is read: the label file must exist, the state file may be missing.
+/// same stem beside the transitions is read: the label file must exist, the state file may be missing. Each
+/// file may begin with lines that start with `#`, as those that PRISM exports do.
 ///
 /// Bounds become the doubles nearest to them. Sums are judged on the decimals as written: lower bounds that
 /// exceed 1, or upper bounds that do not reach it, by at most 10⁻⁹ are widened outwards with a warning.

@@ -14,6 +14,7 @@ pub(super) fn read_lab(path: &Path, states: u64) -> Result<(StateSet, Labels), I
     const HEADER: &str = "a header that declares labels, `0=\"init\" 1=\"deadlock\"`";
     let file = File::open(path).map_err(|error| ImportError::io(path, error))?;
     let mut lines = Lines::new(path, BufReader::new(file));
+    lines.skip_comments()?;
     let Some(mut cursor) = lines.next()? else {
         return Err(lines.refuse(1, HEADER, "the end of the file"));
     };

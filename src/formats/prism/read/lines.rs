@@ -40,6 +40,17 @@ impl<'a, R: BufRead> Lines<'a, R> {
         self.source
     }
 
+    /// Passes over lines that start with `#`: the files that PRISM exports begin with one.
+    pub fn skip_comments(&mut self) -> Result<(), ImportError> {
+        loop {
+            let ahead = self.source.fill_buf().map_err(|error| ImportError::io(self.path, error))?;
+            if ahead.first() != Some(&b'#') {
+                return Ok(());
+            }
+            self.read_line()?;
+        }
+    }
+
     /// The next line; none at the end of the file or if only empty lines follow.
     pub fn next(&mut self) -> Result<Option<Cursor<'_>>, ImportError> {
         self.read_line()?;

@@ -13,6 +13,7 @@ use crate::imdp::{StateSet, StateVariables, VariableValues, require_memory};
 pub(super) fn read_sta(path: &Path, states: u64) -> Result<StateVariables, ImportError> {
     let file = File::open(path).map_err(|error| ImportError::io(path, error))?;
     let mut lines = Lines::new(path, BufReader::new(file));
+    lines.skip_comments()?;
     let Some(mut cursor) = lines.next()? else {
         return Err(lines.refuse(
             1,

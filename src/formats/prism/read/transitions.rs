@@ -70,33 +70,29 @@ pub(super) fn read_tra(
 fn read_header(lines: &mut Lines<'_, BufReader<File>>) -> Result<(ModelKind, Header), ImportError> {
     const COUNTS: &str =
         "a header: `states choices transitions`, or `states transitions` of an interval DTMC";
-    loop {
-        let line = lines.lines_read();
-        let Some(mut cursor) = lines.next()? else {
-            return Err(lines.refuse(1, COUNTS, "the end of the file"));
-        };
-        if cursor.peek() == b'#' {
-            continue;
+    lines.skip_comments()?;
+    let line = lines.lines_read();
+    let Some(mut cursor) = lines.next()? else {
+        return Err(lines.refuse(1, COUNTS, "the end of the file"));
+    };
+    let header = (|| {
+        let states = cursor.unsigned(COUNTS)?;
+        if states == 0 || states > u64::from(StateId::MAX) {
+            return Err(cursor.fault_at(0, format!("between 1 and {} states", StateId::MAX)));
         }
-        let header = (|| {
-            let states = cursor.unsigned(COUNTS)?;
-            if states == 0 || states > u64::from(StateId::MAX) {
-                return Err(cursor.fault_at(0, format!("between 1 and {} states", StateId::MAX)));
+        cursor.expect(b' ', COUNTS)?;
+        let second = cursor.unsigned(COUNTS)?;
+        let third = match cursor.skip(b" ") {
+            true => Some(cursor.unsigned(COUNTS)?),
+            false => None,
+        };
+        cursor.line_end(COUNTS)?;
+        Ok(match third {
+            Some(transitions) => {
+                (ModelKind::Imdp, Header { states, choices: Some(second), transitions, line })
             }
-            cursor.expect(b' ', COUNTS)?;
-            let second = cursor.unsigned(COUNTS)?;
-            let third = match cursor.skip(b" ") {
-                true => Some(cursor.unsigned(COUNTS)?),
-                false => None,
-            };
-            cursor.line_end(COUNTS)?;
-            Ok(match third {
-                Some(transitions) => {
-                    (ModelKind::Imdp, Header { states, choices: Some(second), transitions, line })
-                }
-                None => (ModelKind::Idtmc, Header { states, choices: None, transitions: second, line }),
-            })
-        })();
-        return header.map_err(|fault| lines.place(*fault));
-    }
+            None => (ModelKind::Idtmc, Header { states, choices: None, transitions: second, line }),
+        })
+    })();
+    header.map_err(|fault| lines.place(*fault))
 }
