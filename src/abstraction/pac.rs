@@ -168,7 +168,7 @@ pub(super) fn build(
         lost: BoundTable::new(regions.iter().map(|r| r.lost), samples, levels.outside),
         unseen,
     };
-    let rows = super::compile::build_rows(targets.len(), progress, |target, rows| {
+    let rows = super::row_tasks::build_rows(targets.len(), progress, |target, rows| {
         context.push_row(target, regions[target], rows);
     });
     Ok(PacRows { rows, budget, unseen_mass: unseen })
