@@ -8,6 +8,10 @@ pub trait Progress: Sync {
     fn advance(&self, units: u64);
     /// The phase is over.
     fn finish(&self);
+    /// Whether the user wants the work to end early.
+    fn is_interrupted(&self) -> bool {
+        false
+    }
 }
 
 /// Nobody is watching.

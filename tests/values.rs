@@ -11,8 +11,8 @@ use serde_json::Value;
 /// The lower bound of every cell's value.
 fn values_by_cell(abstraction: &Abstraction) -> Vec<f64> {
     let answer = Answer::new(&abstraction.model, &abstraction.property, &SolverOptions::default()).unwrap();
-    assert!(answer.solution.values.gap() < 1e-12);
-    let values = &answer.solution.values.lower;
+    assert!(answer.values.gap() < 1e-12);
+    let values = &answer.values.lower;
     abstraction.state_of_cell.iter().map(|&state| values[state as usize]).collect()
 }
 

@@ -4,18 +4,16 @@ use super::enabled::{EnabledActions, enabled_actions};
 use super::landings::Landings;
 use super::states::{FAILED, REACHED, StateSpace, labels};
 use super::targets::Targets;
-use super::{pac, reference};
+use super::{AbstractionError, pac, reference};
 use crate::dynamics::{Extent, FeedbackLaw};
 use crate::imdp::{
-    ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, MemoryError, ModelKind, Parts, RowRange,
-    Rows, StateId, require_memory,
+    ActionNames, Choices, ChoicesBuilder, IntervalMdp, ModelKind, Parts, RowRange, StateId, require_memory,
 };
 use crate::partition::{CellId, CellKind};
 use crate::progress::Progress;
 use crate::property::{PathFormula, Property, Resolution, StateFormula, Threshold, ThresholdComparison};
 use crate::spec::{Probabilities, Problem};
-use crate::statistics::{Allocation, BudgetError};
-use rayon::prelude::*;
+use crate::statistics::Allocation;
 use std::time::{Duration, Instant};
 
 /// A control problem as an interval MDP.
@@ -48,39 +46,6 @@ pub struct Guarantee {
     pub budget: Vec<Allocation>,
     /// The bound on the mass outside the samples' bounding box.
     pub unseen_mass: f64,
-}
-
-/// Why a valid problem has no abstraction.
-#[derive(Clone, Debug, thiserror::Error)]
-pub enum AbstractionError {
-    /// No action is enabled in any cell.
-    #[error("no action is enabled in any cell")]
-    NothingEnabled {
-        /// Whether there is a lower layer, which may be to blame.
-        stabilized: bool,
-    },
-    /// The samples prove too little.
-    #[error("{samples} samples leave {unseen} of the probability unseen")]
-    TooFewSamples {
-        /// The number of samples.
-        samples: u64,
-        /// How many would be enough.
-        needed: u64,
-        /// The bound on the unseen mass.
-        unseen: f64,
-    },
-    /// The model does not fit into memory.
-    #[error(transparent)]
-    Memory(#[from] MemoryError),
-    /// The budget was overspent: a mistake in this program.
-    #[error(transparent)]
-    Budget(#[from] BudgetError),
-    /// The result is not an interval MDP: a mistake in this program.
-    #[error("the abstraction is not an interval MDP: {0}")]
-    Invalid(#[from] ImdpError),
-    /// `B` has no right inverse: a mistake in this program, since problems are validated.
-    #[error("the grouped B has no right inverse")]
-    NotSteerable,
 }
 
 /// Measures the phases of the pipeline.
@@ -173,31 +138,6 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
         phases: clock.phases,
         warnings,
     })
-}
-
-/// Builds `count` rows in parallel and puts them together in order.
-pub(super) fn build_rows(
-    count: usize,
-    progress: &dyn Progress,
-    push_row: impl Fn(usize, &mut Rows) + Sync,
-) -> Rows {
-    const ROWS_PER_TASK: usize = 64;
-    let starts: Vec<usize> = (0..count).step_by(ROWS_PER_TASK).collect();
-    let parts: Vec<Rows> = starts
-        .into_par_iter()
-        .map(|start| {
-            let end = (start + ROWS_PER_TASK).min(count);
-            let mut rows = Rows::new();
-            (start..end).for_each(|target| push_row(target, &mut rows));
-            progress.advance((end - start) as u64);
-            rows
-        })
-        .collect();
-    let mut all = Rows::with_capacity(count, parts.iter().map(Rows::num_entries).sum());
-    for part in parts {
-        all.append(&part);
-    }
-    all
 }
 
 fn choices(problem: &Problem, states: &StateSpace, enabled: &EnabledActions) -> Choices {

@@ -8,14 +8,17 @@
 mod compile;
 mod count_table;
 mod enabled;
+mod error;
 mod landing;
 mod landings;
 mod pac;
 mod reference;
+mod row_tasks;
 mod states;
 mod targets;
 
-pub use compile::{Abstraction, AbstractionError, Guarantee, compile};
+pub use compile::{Abstraction, Guarantee, compile};
 pub use enabled::enabled_actions;
+pub use error::AbstractionError;
 pub use landing::{Count, Landing, RegionCounts, Spread};
 pub use targets::{Alignment, Targets};

@@ -21,6 +21,13 @@
 //! outside `d_a + W`, so it is at most `ε`, and the former at most its upper bound; if `d_a + W` meets
 //! neither unsafe cells nor the outside, both together lie outside `d_a + W` and `ε` alone is enough. ∎
 //!
+//! Floating point: the input steers to `d_a + e` with an error `e`, bounded but different for every state, and
+//! samples are rounded numbers. Put for each set `C` above `C⁻ = {y : y + e ∈ C for all such e}` and
+//! `C⁺ = {y : y + e ∈ C for some e}`. Samples that count for certain are in `C⁻ − d_a`, all samples in
+//! `C⁺ − d_a` possibly count, and both sets are fixed beforehand. So the lower bound is one for
+//! `P(d_a + η ∈ C⁻)`, the upper one for `P(d_a + η ∈ C⁺)`: they enclose `P(d_a + e + η ∈ C)` for every `e` at once,
+//! and the number of events stays the same. Likewise the listed cells contain `d_a + e + W` for every `e`.
+//!
 //! Moving mass to `failed` can only lower the probability of a formula that is false from `failed` on, so
 //! robust lower bounds of such formulas (`Pmaxmin`, `Pminmin`) carry over to the system; dually, upper
 //! bounds with maximising nature of `F "failed"`. Nothing else is claimed. Samples whose cell is not certain
@@ -161,7 +168,7 @@ pub(super) fn build(
         lost: BoundTable::new(regions.iter().map(|r| r.lost), samples, levels.outside),
         unseen,
     };
-    let rows = super::compile::build_rows(targets.len(), progress, |target, rows| {
+    let rows = super::row_tasks::build_rows(targets.len(), progress, |target, rows| {
         context.push_row(target, regions[target], rows);
     });
     Ok(PacRows { rows, budget, unseen_mass: unseen })
@@ -183,7 +190,8 @@ impl Context<'_> {
             }
         });
         let lost = if clean { 0.0 } else { self.lost.upper(regions.lost) };
-        rows.push_entry(FAILED, 0.0, round_decimal_up(self.unseen + lost, DIGITS).min(1.0));
+        let failed = (self.unseen + lost).next_up();
+        rows.push_entry(FAILED, 0.0, round_decimal_up(failed, DIGITS).min(1.0));
         if meets_goal {
             let lower = self.goal.lower(regions.goal).max(round_decimal_down(goal_lower, DIGITS));
             rows.push_entry(REACHED, lower, self.goal.upper(regions.goal));
@@ -201,7 +209,11 @@ impl Context<'_> {
 fn enough_samples(dimension: usize, level: f64) -> u64 {
     let enough = |samples: u64| unseen_mass(dimension, samples, level) <= MAX_UNSEEN;
     let mut high = 2 * dimension as u64;
+    // At a level of 0, which doubles make of the tiniest budgets, no number is enough.
     while !enough(high) {
+        if high > u64::from(u32::MAX) {
+            return u64::MAX;
+        }
         high *= 2;
     }
     let mut low = high / 2;

@@ -42,7 +42,7 @@ pub(super) fn build(
     let of_cells = landings.distinct_counts(targets, grid);
     let of_cells = CountTable::new(of_cells.iter().map(|count| count.certain), |k| intervals.of_cell(k));
     let of_outside = CountTable::new(inside.iter().copied(), |k| intervals.of_outside(k));
-    super::compile::build_rows(targets.len(), progress, |target, rows| {
+    super::row_tasks::build_rows(targets.len(), progress, |target, rows| {
         let mut origin = vec![0; grid.dimension()];
         let landing = landings.of(targets, target, grid, &mut origin);
         let (lower, upper) = of_outside.get(inside[target]);

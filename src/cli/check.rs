@@ -1,5 +1,6 @@
 //! `dynabs-check`: its subcommands.
 
+use super::diff::{DiffArguments, run as diff};
 use super::solve::{SolveArguments, run as solve};
 use super::{CliError, use_threads};
 use clap::{Parser, Subcommand};
@@ -21,6 +22,8 @@ pub struct Arguments {
 enum Command {
     /// Solve properties of a compiled model or of explicit PRISM files.
     Solve(SolveArguments),
+    /// Compare two run directories, models, results or reference files; exit code 1 on a difference.
+    Diff(DiffArguments),
 }
 
 const AFTER_HELP: &str = "\
@@ -35,5 +38,6 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
     use_threads(arguments.threads)?;
     match &arguments.command {
         Command::Solve(arguments) => solve(arguments),
+        Command::Diff(arguments) => diff(arguments),
     }
 }

@@ -1,7 +1,7 @@
 //! `dynabs-compile`: from a model file to PRISM files.
 
 use super::results::{PropertyResult, exit_code, table};
-use super::solve::{LimitArguments, answer, interrupt_flag};
+use super::solve::{LimitArguments, answer};
 use super::summary::summary;
 use super::{Bars, CliError, print, use_threads};
 use crate::abstraction::compile;
@@ -13,6 +13,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Compile a noisy linear control system into an interval MDP with guaranteed probabilities, for PRISM.
@@ -119,7 +120,7 @@ fn write_starter(file: &Path, quiet: bool) -> Result<(), CliError> {
 
 fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliError> {
     let start = Instant::now();
-    let bars = Bars::new(arguments.quiet);
+    let bars = Arc::new(Bars::new(arguments.quiet));
     if let Some(output) = arguments.output.as_deref().filter(|_| !arguments.dry_run) {
         // Before any work: a place that is taken will still be taken afterwards.
         Staging::check(output, arguments.force)?;
@@ -130,24 +131,26 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
     let mut phases = vec![("model file", start.elapsed())];
 
     let abstraction =
-        compile(&problem, &bars).map_err(|error| CliError::of_abstraction(&error, &document.name))?;
+        compile(&problem, &*bars).map_err(|error| CliError::of_abstraction(&error, &document.name))?;
     phases.extend(&abstraction.phases);
     let mut manifest = Manifest::new(&document, &source, &problem, &abstraction);
     manifest.set.clone_from(&arguments.set);
     manifest.warnings.append(&mut notes);
 
+    // Until here there is nothing to clean up, and nothing to print.
+    bars.catch_interrupts()?;
     if let Some(output) = arguments.output.as_deref().filter(|_| !arguments.dry_run) {
         let writing = Instant::now();
         let options = WriteOptions { no_tra: arguments.no_tra, force: arguments.force };
-        manifest = write_run(output, &document, &problem, &abstraction, manifest, options, &bars)?;
+        manifest = write_run(output, &document, &problem, &abstraction, manifest, options, &*bars)?;
         phases.push(("files", writing.elapsed()));
     }
     let mut results = Vec::new();
     if arguments.solve {
-        let (interrupt, limits) = (interrupt_flag()?, LimitArguments::default());
+        let limits = LimitArguments::default();
         let solving = Instant::now();
         let (model, property) = (&abstraction.model, &abstraction.property);
-        results.push(answer(model, property, &limits, false, &interrupt, &bars)?.1);
+        results.push(answer(model, property, &limits, false, &bars)?.1);
         phases.push(("solving", solving.elapsed()));
     }
     report(arguments, &manifest, &phases, &results)?;

@@ -20,7 +20,7 @@ pub(super) fn write_values(path: &Path, model: &IntervalMdp, answer: &Answer) ->
         for state in 0..model.num_states() as StateId {
             match answer.verdict_of(state) {
                 None => {
-                    let value = answer.solution.values.lower[state as usize];
+                    let value = answer.values.lower[state as usize];
                     writeln!(out, "{}", crate::numeric::shortest_decimal(value))?;
                 }
                 Some(Verdict::Holds) => writeln!(out, "true")?,

@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod compile;
+pub mod diff;
 mod error;
 mod exports;
 mod model_source;

@@ -1,8 +1,10 @@
 //! Progress bars for people who wait.
 
+use super::CliError;
 use crate::progress::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::sync::{Mutex, PoisonError};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Work shorter than this shows no bar.
@@ -14,6 +16,7 @@ const NOTE_INTERVAL: Duration = Duration::from_millis(100);
 #[derive(Debug)]
 pub struct Bars {
     quiet: bool,
+    interrupt: AtomicBool,
     current: Mutex<Option<Current>>,
 }
 
@@ -39,7 +42,26 @@ impl Current {
 impl Bars {
     /// Bars, unless `quiet`.
     pub fn new(quiet: bool) -> Self {
-        Self { quiet, current: Mutex::new(None) }
+        Self { quiet, interrupt: AtomicBool::new(false), current: Mutex::new(None) }
+    }
+
+    /// Takes Ctrl-C from now on: the first one asks the work to end cleanly, the second one ends the program.
+    ///
+    /// # Errors
+    /// [`CliError::Failure`] if the system does not let us.
+    pub fn catch_interrupts(self: &Arc<Self>) -> Result<(), CliError> {
+        let bars = Arc::clone(self);
+        let handler = move || {
+            if bars.interrupt.swap(true, Ordering::Relaxed) {
+                std::process::exit(3);
+            }
+        };
+        ctrlc::set_handler(handler).map_err(|error| CliError::Failure(format!("Ctrl-C: {error}")))
+    }
+
+    /// The flag that Ctrl-C sets.
+    pub fn interrupt(&self) -> &AtomicBool {
+        &self.interrupt
     }
 
     /// Shows what an iteration without a known end is doing; `text` is asked for only when it is shown.
@@ -81,6 +103,10 @@ impl Progress for Bars {
             current.bar.inc(units);
             current.show_after_a_while(self.quiet);
         });
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.interrupt.load(Ordering::Relaxed)
     }
 
     fn finish(&self) {

@@ -38,12 +38,8 @@ impl PropertyResult {
             property: property.to_string(),
             lower: answer.lower,
             upper: answer.upper,
-            satisfied: match answer.verdict {
-                Some(Verdict::Holds) => Some(true),
-                Some(Verdict::Fails) => Some(false),
-                Some(Verdict::Unknown) | None => None,
-            },
-            status: status_name(status).to_owned(),
+            satisfied: answer.satisfied(),
+            status: status.to_string(),
             steps: answer.solution.iterations,
             seconds: time.as_secs_f64(),
             decided: match answer.verdict {
@@ -51,17 +47,6 @@ impl PropertyResult {
                 Some(verdict) => verdict != Verdict::Unknown,
             },
         }
-    }
-}
-
-fn status_name(status: Status) -> &'static str {
-    match status {
-        Status::HorizonReached => "horizon reached",
-        Status::Converged => "converged",
-        Status::PrecisionLimit => "precision limit",
-        Status::IterationLimit => "iteration limit",
-        Status::TimeLimit => "time limit",
-        Status::Interrupted => "interrupted",
     }
 }
 

@@ -15,7 +15,6 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// What to solve and how.
@@ -78,7 +77,7 @@ fn positive(text: &str) -> Result<f64, String> {
 /// # Errors
 /// [`CliError`], which knows its exit code.
 pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
-    let bars = Bars::new(arguments.quiet);
+    let bars = Arc::new(Bars::new(arguments.quiet));
     let start = Instant::now();
     let loaded = load(&arguments.path, arguments.explicit, &bars)?;
     let reading = start.elapsed();
@@ -97,10 +96,9 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     }
     let wants_policy = arguments.policy.is_some();
     let mut results = Vec::with_capacity(properties.len());
-    let interrupt = interrupt_flag()?;
+    bars.catch_interrupts()?;
     for property in &properties {
-        let (answer, result) =
-            answer(&loaded.model, property, &arguments.limits, wants_policy, &interrupt, &bars)?;
+        let (answer, result) = answer(&loaded.model, property, &arguments.limits, wants_policy, &bars)?;
         if let Some(path) = &arguments.values {
             write_values(path, &loaded.model, &answer)?;
         }
@@ -125,7 +123,6 @@ pub(super) fn answer(
     property: &Property,
     limits: &LimitArguments,
     policy: bool,
-    interrupt: &AtomicBool,
     bars: &Bars,
 ) -> Result<(Answer, PropertyResult), CliError> {
     let start = Instant::now();
@@ -135,7 +132,7 @@ pub(super) fn answer(
         epsilon: limits.epsilon,
         max_iterations: limits.max_iterations.unwrap_or(u64::MAX),
         time_limit: limits.time_limit.map(Duration::from_secs_f64),
-        interrupt: Some(interrupt),
+        interrupt: Some(bars.interrupt()),
         progress: Some(&progress),
         policy,
     };
@@ -144,19 +141,6 @@ pub(super) fn answer(
     let answer = answer.map_err(|error| CliError::Input(format!("{property}: {error}")))?;
     let result = PropertyResult::new(property, &answer, start.elapsed());
     Ok((answer, result))
-}
-
-/// Set by the first Ctrl-C, so that the bounds so far are printed; the second one ends the program.
-pub(super) fn interrupt_flag() -> Result<Arc<AtomicBool>, CliError> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let seen = Arc::clone(&flag);
-    ctrlc::set_handler(move || {
-        if seen.swap(true, Ordering::Relaxed) {
-            std::process::exit(3);
-        }
-    })
-    .map_err(|error| CliError::Failure(format!("Ctrl-C: {error}")))?;
-    Ok(flag)
 }
 
 impl Default for LimitArguments {

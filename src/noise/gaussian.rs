@@ -3,8 +3,8 @@
 use super::NoiseSamples;
 use crate::numeric::{ExactMatrix, to_f64};
 use nalgebra::{DMatrix, DVector};
+use rand::SeedableRng;
 use rand_chacha::ChaCha12Rng;
-use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
 /// The normal distribution `N(μ, Σ)`, `Σ` positive semidefinite.

@@ -1,16 +1,20 @@
 //! A property answered: bounds at the initial states and a verdict.
 
-use super::{Query, Solution, SolveError, SolverOptions, solve};
+use super::{Query as SolverQuery, Solution, SolveError, SolverOptions, ValueBounds, solve};
 use crate::imdp::{IntervalMdp, StateId};
-use crate::property::{Objective, Property, PropertyError, Verdict};
+use crate::property::{Objective, Property, PropertyError, Query, Verdict};
 
 /// What a property's question came to.
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// What was asked.
     pub objective: Objective,
-    /// Bounds on the value of every state (for `G`, already those of the property, not of its negation).
+    /// The query that it became.
+    pub query: Query,
+    /// The solution of the query: for `G`, that of the complement.
     pub solution: Solution,
+    /// Bounds on the value of every state.
+    pub values: ValueBounds,
     /// The least lower bound of all initial states.
     pub lower: f64,
     /// The greatest upper bound of all initial states.
@@ -42,23 +46,29 @@ impl Answer {
     ) -> Result<Self, AnswerError> {
         let objective = property.resolve(model.kind())?;
         let query = objective.query(model)?;
-        let mut solution = solve(model, &Query::from(&query.kind), query.resolution, options)?;
-        if query.complement {
-            solution.values = solution.values.complement();
-        }
+        let solution = solve(model, &SolverQuery::from(&query.kind), query.resolution, options)?;
+        let values = if query.complement { solution.values.complement() } else { solution.values.clone() };
         let initial = || model.initial().ones();
-        let lower = initial().map(|s| solution.values.lower[s]).fold(1.0, f64::min);
-        let upper = initial().map(|s| solution.values.upper[s]).fold(0.0, f64::max);
-        let mut answer = Self { objective, solution, lower, upper, verdict: None };
+        let lower = initial().map(|s| values.lower[s]).fold(1.0, f64::min);
+        let upper = initial().map(|s| values.upper[s]).fold(0.0, f64::max);
+        let mut answer = Self { objective, query, solution, values, lower, upper, verdict: None };
         let verdicts: Option<Vec<Verdict>> = initial().map(|s| answer.verdict_of(s as StateId)).collect();
         answer.verdict = verdicts.map(|verdicts| all(&verdicts));
         Ok(answer)
     }
 
+    /// Whether the threshold holds in all initial states; `None` if undecided or if there is no threshold.
+    pub fn satisfied(&self) -> Option<bool> {
+        match self.verdict? {
+            Verdict::Holds => Some(true),
+            Verdict::Fails => Some(false),
+            Verdict::Unknown => None,
+        }
+    }
+
     /// Whether the threshold holds in one state; `None` if there is no threshold.
     pub fn verdict_of(&self, state: StateId) -> Option<Verdict> {
-        let values = &self.solution.values;
-        let bounds = (values.lower[state as usize], values.upper[state as usize]);
+        let bounds = (self.values.lower[state as usize], self.values.upper[state as usize]);
         self.objective.threshold.as_ref().map(|threshold| threshold.decide(bounds.0, bounds.1))
     }
 }

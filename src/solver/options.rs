@@ -1,5 +1,6 @@
 //! When to stop, and how it was stopped.
 
+use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -49,6 +50,19 @@ pub enum Status {
     TimeLimit,
     /// The interrupt flag was set.
     Interrupted,
+}
+
+impl fmt::Display for Status {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::HorizonReached => "horizon reached",
+            Self::Converged => "converged",
+            Self::PrecisionLimit => "precision limit",
+            Self::IterationLimit => "iteration limit",
+            Self::TimeLimit => "time limit",
+            Self::Interrupted => "interrupted",
+        })
+    }
 }
 
 /// Counts iterations and says when to stop.

@@ -9,7 +9,6 @@ mod clopper_pearson;
 mod reference;
 mod unseen_mass;
 
-pub use binomial::{ln_lower_tail, ln_upper_tail};
 pub use budget::{Allocation, BudgetError, ConfidenceBudget};
 pub use clopper_pearson::{lower_bound, upper_bound};
 pub use reference::ReferenceIntervals;

@@ -27,7 +27,7 @@ fn benchmark(criterion: &mut Criterion) {
         // The alternative to rows and ranges: one pass over all transitions with the least work that a solver
         // which expands them could do.
         let model = &compiled.model;
-        let values = solve().solution.values.lower;
+        let values = solve().values.lower;
         group.bench_function("one step over expanded transitions", |bencher| {
             bencher.iter(|| {
                 let mut best = vec![0.0f64; model.num_states()];

@@ -4,7 +4,6 @@
 mod cases;
 mod models;
 mod reference;
-mod speed;
 
 use dynabs::imdp::{IntervalMdp, StateSet};
 use dynabs::numeric::from_dyadic;

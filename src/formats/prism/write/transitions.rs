@@ -135,6 +135,9 @@ impl<'a> TraWriter<'a> {
                 Ok(())
             });
             for batch in self.chunks.chunks(CHUNKS_IN_FLIGHT / 2) {
+                if progress.is_interrupted() {
+                    return Err(io::Error::other("interrupted, nothing was written"));
+                }
                 let mut pieces: Vec<Vec<u8>> =
                     batch.iter().map(|_| to_fill.try_recv().unwrap_or_default()).collect();
                 pieces.par_iter_mut().zip(batch).for_each(|(piece, chunk)| self.render(chunk, piece));

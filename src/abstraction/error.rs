@@ -1,0 +1,37 @@
+//! Why there is no abstraction.
+
+use crate::imdp::{ImdpError, MemoryError};
+use crate::statistics::BudgetError;
+
+/// Why a valid problem has no abstraction.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum AbstractionError {
+    /// No action is enabled in any cell.
+    #[error("no action is enabled in any cell")]
+    NothingEnabled {
+        /// Whether there is a lower layer, which may be to blame.
+        stabilized: bool,
+    },
+    /// The samples prove too little.
+    #[error("{samples} samples leave {unseen} of the probability unseen")]
+    TooFewSamples {
+        /// The number of samples.
+        samples: u64,
+        /// How many would be enough.
+        needed: u64,
+        /// The bound on the unseen mass.
+        unseen: f64,
+    },
+    /// The model does not fit into memory.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
+    /// The budget was overspent: a mistake in this program.
+    #[error(transparent)]
+    Budget(#[from] BudgetError),
+    /// The result is not an interval MDP: a mistake in this program.
+    #[error("the abstraction is not an interval MDP: {0}")]
+    Invalid(#[from] ImdpError),
+    /// `B` has no right inverse: a mistake in this program, since problems are validated.
+    #[error("the grouped B has no right inverse")]
+    NotSteerable,
+}

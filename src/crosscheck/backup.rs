@@ -1,0 +1,78 @@
+//! One step of robust value iteration in plain floating point: to weigh actions, not to prove anything.
+
+use crate::imdp::{IntervalMdp, RowId, StateId};
+use crate::property::{Query, QueryKind, Resolution};
+
+/// A query whose actions are to be weighed.
+pub(super) struct Backup<'a> {
+    model: &'a IntervalMdp,
+    query: &'a Query,
+}
+
+impl<'a> Backup<'a> {
+    pub fn new(model: &'a IntervalMdp, query: &'a Query) -> Self {
+        Self { model, query }
+    }
+
+    /// The values with no step left: 1 in goal states.
+    pub fn initial(&self) -> Vec<f64> {
+        let (QueryKind::Until { goal, .. } | QueryKind::Next { goal }) = &self.query.kind;
+        (0..self.model.num_states()).map(|state| f64::from(u8::from(goal.contains(state)))).collect()
+    }
+
+    /// `opt_p p·V` over the distributions `p` of a row.
+    pub fn row_value(&self, row: RowId, values: &[f64]) -> f64 {
+        let row = self.model.rows().row(row);
+        let value = |at: &usize| values[row.successors[*at] as usize];
+        let mut order: Vec<usize> = (0..row.len()).collect();
+        order.sort_by(|a, b| value(a).total_cmp(&value(b)));
+        if self.query.resolution.nature_maximises() {
+            order.reverse();
+        }
+        let mut slack = (1.0 - row.lower.iter().sum::<f64>()).max(0.0);
+        let pour = |at: usize| {
+            let poured = (row.upper[at] - row.lower[at]).min(slack);
+            slack -= poured;
+            (row.lower[at] + poured) * value(&at)
+        };
+        order.into_iter().map(pour).sum()
+    }
+
+    /// The values with one more step left.
+    pub fn step(&self, values: &[f64]) -> Vec<f64> {
+        let weights: Vec<f64> =
+            (0..self.model.rows().len() as RowId).map(|row| self.row_value(row, values)).collect();
+        let maximise = matches!(self.query.resolution, Resolution::Pmaxmin | Resolution::Pmaxmax);
+        let best: fn(f64, f64) -> f64 = if maximise { f64::max } else { f64::min };
+        let next = (0..self.model.num_states()).map(|state| {
+            if let QueryKind::Until { safe, goal, .. } = &self.query.kind {
+                if goal.contains(state) {
+                    return 1.0;
+                } else if !safe.contains(state) {
+                    return 0.0;
+                }
+            }
+            let rows = self.model.choices().rows(state as StateId).map(|row| weights[row as usize]);
+            rows.reduce(best).unwrap_or(values[state])
+        });
+        next.collect()
+    }
+
+    /// Whether it matters what is done in a state.
+    pub fn matters(&self, state: StateId) -> bool {
+        match &self.query.kind {
+            QueryKind::Until { safe, goal, .. } => {
+                safe.contains(state as usize) && !goal.contains(state as usize)
+            }
+            QueryKind::Next { .. } => true,
+        }
+    }
+
+    /// The number of steps, if bounded.
+    pub fn horizon(&self) -> Option<u64> {
+        match self.query.kind {
+            QueryKind::Until { steps, .. } => steps,
+            QueryKind::Next { .. } => Some(1),
+        }
+    }
+}
