@@ -3,6 +3,9 @@
 use sha2::{Digest, Sha256};
 use std::io::{self, Write};
 
+/// From this size on, hashing (about as slow as writing) gets a thread of its own.
+const LARGE: usize = 1 << 18;
+
 /// Passes bytes on, counting and hashing them.
 #[derive(Debug)]
 pub struct HashingWriter<W> {
@@ -25,10 +28,18 @@ impl<W: Write> HashingWriter<W> {
 
 impl<W: Write> Write for HashingWriter<W> {
     fn write(&mut self, buffer: &[u8]) -> io::Result<usize> {
-        let written = self.inner.write(buffer)?;
-        self.hash.update(&buffer[..written]);
-        self.bytes += written as u64;
-        Ok(written)
+        let Self { inner, hash, bytes } = self;
+        if buffer.len() < LARGE {
+            inner.write_all(buffer)?;
+            hash.update(buffer);
+        } else {
+            std::thread::scope(|scope| {
+                scope.spawn(|| hash.update(buffer));
+                inner.write_all(buffer)
+            })?;
+        }
+        *bytes += buffer.len() as u64;
+        Ok(buffer.len())
     }
 
     fn flush(&mut self) -> io::Result<()> {
