@@ -68,7 +68,7 @@ pub(super) fn table(results: &[PropertyResult]) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}", result.property);
         let width = result.upper - result.lower;
-        let digits = if width > 0.0 { (2.0 - width.log10()).clamp(6.0, 17.0) as usize } else { 12 };
+        let digits = if width > 0.0 { (2.0 - width.log10()).clamp(6.0, 15.0) as usize } else { 12 };
         let verdict = match (result.satisfied, result.decided) {
             (Some(satisfied), _) => format!("{satisfied}   "),
             (None, true) => String::new(),
