@@ -105,6 +105,8 @@ class Storm:
     def __init__(self, precision):
         import stormpy
 
+        # For interval models it always warns that it takes robust value iteration.
+        stormpy.developer.set_log_level(stormpy.developer.LogLevel.ERR)
         self.stormpy = stormpy
         self.precision = precision
         # Bounded G is not part of its language; its unbounded G takes the wrong side of nature.

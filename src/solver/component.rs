@@ -16,6 +16,9 @@ use super::range_optimum::RangeOptimum;
 use super::sweep::Sweep;
 use crate::imdp::{IntervalMdp, RowId, StateId, StateSet};
 
+/// Raises of a refuted guess are multiplied by powers of 8 up to this one: 8⁸ is 1.7·10⁷.
+const LEAPS: i32 = 8;
+
 /// The bounds of the whole model, as far as they are known.
 pub(super) struct Shared<'a> {
     pub model: &'a IntervalMdp,
@@ -80,8 +83,7 @@ impl<'s, 'a> Component<'s, 'a> {
             if (sweeps >= next_guess && change <= behind + margin) || change == 0.0 {
                 next_guess = sweeps + 1 + sweeps / 4;
                 let rounds = 4 + sweeps.min(4096) / 2;
-                if self.guess(behind + margin, rounds)
-                    && (self.gap() <= behind + 2.0 * share || change == 0.0)
+                if self.guess(behind, margin, rounds) && (self.gap() <= behind + 2.0 * share || change == 0.0)
                 {
                     break;
                 }
@@ -143,14 +145,14 @@ impl<'s, 'a> Component<'s, 'a> {
         largest
     }
 
-    /// Tries `U = L + margin` and shapes derived from it; returns whether one is an upper bound.
+    /// Tries `U = L + behind + margin` and shapes derived from it; returns whether one is an upper bound.
     ///
     /// Where a single step does not lose any of the margin, rounding alone can spoil a guess `C`. The mean
     /// of `C, T(C), …, T^{k−1}(C)` spreads what is lost in `k` steps evenly: for a linear operator it is
     /// raised by `(T^k(C) − C)/k`. Means start anew at every power of two, to forget a bad beginning.
-    fn guess(&mut self, margin: f64, rounds: u64) -> bool {
+    fn guess(&mut self, behind: f64, margin: f64, rounds: u64) -> bool {
         let states = self.sweep.states.clone();
-        let raised = |&s: &StateId| (self.shared.lower[s as usize] + margin).min(1.0);
+        let raised = |&s: &StateId| (self.shared.lower[s as usize] + behind + margin).min(1.0);
         let mut iterate: Vec<f64> = states.iter().map(raised).collect();
         let old: Vec<f64> = states.iter().map(|&s| self.shared.upper[s as usize]).collect();
         if self.is_inductive(&iterate, &Levels::default()) {
@@ -173,13 +175,41 @@ impl<'s, 'a> Component<'s, 'a> {
                 sum.fill(0.0);
                 count = 0.0;
             }
-            if self.is_inductive(&iterate, &levels) {
+            if self.is_inductive(&iterate, &levels)
+                || (k.is_power_of_two() && self.leap_up(&iterate, &levels, margin))
+            {
                 self.accept(&old);
                 return true;
             }
             iterate.iter_mut().zip(&self.results).for_each(|(value, new)| *value = new.min(1.0));
         }
         states.iter().zip(&old).for_each(|(&s, &u)| self.shared.upper[s as usize] = u);
+        false
+    }
+
+    /// Tries the candidate just refuted, raised further and further where the operator raised it.
+    ///
+    /// A state that hardly moves follows a level one, but its lower bound stays behind by what rounding
+    /// takes, divided by how much it moves. So much is missing in its guess too, and plain iteration would
+    /// have to regain it as slowly. Raises by at most `room`: values near 1 would be accepted, but say nothing.
+    /// Leaves `T` of the candidate in the results if it fails.
+    fn leap_up(&mut self, candidate: &[f64], levels: &Levels, room: f64) -> bool {
+        let image = self.results.clone();
+        let mut raised = candidate.to_vec();
+        for exponent in 1..=LEAPS {
+            let factor = 8f64.powi(exponent);
+            for (value, new) in raised.iter_mut().zip(&self.results) {
+                *value = (*value + factor * (new - *value).max(0.0)).min(1.0);
+            }
+            levels.raise(&mut raised);
+            if raised.iter().zip(candidate).any(|(value, old)| value - old > room) {
+                break;
+            }
+            if self.is_inductive(&raised, levels) {
+                return true;
+            }
+        }
+        self.results = image;
         false
     }
 
