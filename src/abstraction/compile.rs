@@ -1,15 +1,16 @@
 //! The pipeline from problem to interval MDP.
 
-use super::enabled::{EnabledActions, enabled_actions};
+use super::enabled::EnabledActions;
 use super::landings::Landings;
 use super::states::{FAILED, REACHED, StateSpace, labels};
+use super::steering::Steering;
 use super::targets::Targets;
 use super::{AbstractionError, pac, reference};
-use crate::dynamics::{Extent, FeedbackLaw};
+use crate::dynamics::FeedbackLaw;
 use crate::imdp::{
     ActionNames, Choices, ChoicesBuilder, IntervalMdp, ModelKind, Parts, RowRange, StateId, require_memory,
 };
-use crate::partition::{CellId, CellKind};
+use crate::partition::{CellId, CellKind, Grid};
 use crate::progress::Progress;
 use crate::property::{PathFormula, Property, Resolution, StateFormula, Threshold, ThresholdComparison};
 use crate::spec::{Probabilities, Problem};
@@ -69,26 +70,15 @@ impl Clock {
 pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction, AbstractionError> {
     let mut clock = Clock { start: Instant::now(), phases: vec![] };
     let grid = &problem.grid;
-    let targets = Targets::new(&problem.targets, grid);
-    let layers = problem.stabilizer.as_ref().map(|stabilizer| &stabilizer.layers);
-    let law = FeedbackLaw::new(&problem.system, layers).ok_or(AbstractionError::NotSteerable)?;
-    let extent = Extent { state: grid.magnitudes(), target: targets.magnitudes() };
-    let constraints = law.constraints(&problem.input, layers.map(|layers| layers.abstract_input()), &extent);
+    let steering = Steering::new(problem)?;
     clock.lap("law");
 
-    let ordinary: Vec<CellId> = (problem.labels.iter())
-        .filter_map(|(cell, kind)| (kind == CellKind::Ordinary).then_some(cell))
-        .collect();
-    progress.start("enabled actions", ordinary.len() as u64);
-    let enabled = enabled_actions(grid, &ordinary, &targets, &constraints, progress);
-    progress.finish();
-    if enabled.ranges.is_empty() && !ordinary.is_empty() {
-        return Err(AbstractionError::NothingEnabled { stabilized: layers.is_some() });
-    }
+    let enabled = steering.enabled(problem, progress)?;
     clock.lap("enabled actions");
 
     let is_pac = matches!(problem.probabilities, Probabilities::Pac { .. });
-    let states = if is_pac { StateSpace::merged(&problem.labels) } else { StateSpace::complete(grid) };
+    let states = state_space(problem);
+    let Steering { targets, law, extent, .. } = steering;
     let tolerance = is_pac.then(|| law.steering_error(&extent));
     let landings = Landings::new(&problem.noise.samples, grid, &targets, tolerance);
     // 4 bytes of successor and 16 of bounds per entry, twice while chunks are put together.
@@ -131,13 +121,62 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
     Ok(Abstraction {
         model,
         property: reach_avoid(problem),
-        state_of_cell: (0..grid.num_cells()).map(|cell| states.of_cell(CellId(cell))).collect(),
+        state_of_cell: state_of_cell(grid, &states),
         targets,
         law,
         guarantee,
         phases: clock.phases,
         warnings,
     })
+}
+
+impl Abstraction {
+    /// The abstraction of `problem` whose model was compiled before, `model`.
+    ///
+    /// Samples are not looked at again; the choices of the model are compared with the actions that the law
+    /// allows, so that whatever a policy chooses is safe to apply.
+    ///
+    /// # Errors
+    /// [`AbstractionError::Foreign`] if the model is another problem's.
+    pub fn reopen(
+        problem: &Problem,
+        model: IntervalMdp,
+        guarantee: Option<Guarantee>,
+        progress: &dyn Progress,
+    ) -> Result<Self, AbstractionError> {
+        let mut clock = Clock { start: Instant::now(), phases: vec![] };
+        let steering = Steering::new(problem)?;
+        let states = state_space(problem);
+        let same = model.num_states() == states.len()
+            && model.rows().len() == steering.targets.len()
+            && *model.choices() == choices(problem, &states, &steering.enabled(problem, progress)?);
+        if !same {
+            return Err(AbstractionError::Foreign);
+        }
+        clock.lap("enabled actions");
+        let blocked = states.select(|state| is_blocked(problem, &states, model.choices(), state));
+        Ok(Self {
+            property: reach_avoid(problem),
+            state_of_cell: state_of_cell(&problem.grid, &states),
+            warnings: warnings(problem, blocked.count_ones(..)),
+            model,
+            targets: steering.targets,
+            law: steering.law,
+            guarantee,
+            phases: clock.phases,
+        })
+    }
+}
+
+fn state_space(problem: &Problem) -> StateSpace {
+    match problem.probabilities {
+        Probabilities::Pac { .. } => StateSpace::merged(&problem.labels),
+        Probabilities::Reference { .. } => StateSpace::complete(&problem.grid),
+    }
+}
+
+fn state_of_cell(grid: &Grid, states: &StateSpace) -> Vec<StateId> {
+    (0..grid.num_cells()).map(|cell| states.of_cell(CellId(cell))).collect()
 }
 
 fn choices(problem: &Problem, states: &StateSpace, enabled: &EnabledActions) -> Choices {

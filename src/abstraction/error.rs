@@ -31,6 +31,9 @@ pub enum AbstractionError {
     /// The result is not an interval MDP: a mistake in this program.
     #[error("the abstraction is not an interval MDP: {0}")]
     Invalid(#[from] ImdpError),
+    /// A model was given that this problem does not have.
+    #[error("the model is not the one that this version of dynabs makes of the problem")]
+    Foreign,
     /// `B` has no right inverse: a mistake in this program, since problems are validated.
     #[error("the grouped B has no right inverse")]
     NotSteerable,

@@ -15,6 +15,7 @@ mod pac;
 mod reference;
 mod row_tasks;
 mod states;
+mod steering;
 mod targets;
 
 pub use compile::{Abstraction, Guarantee, compile};

@@ -61,6 +61,11 @@ impl CliError {
                 Diagnostic::at("/partition/cells", error.to_string(), "a model that fits")
                     .remedy("Use fewer cells or targets, or a machine with more memory.")
             }
+            AbstractionError::Foreign => {
+                return Self::Input(format!(
+                    "{file}: found another problem's model; expected the one compiled from it\n  Compile it again."
+                ));
+            }
             AbstractionError::Budget(_) | AbstractionError::Invalid(_) | AbstractionError::NotSteerable => {
                 return Self::Failure(format!(
                     "{file}: {error}\n  This is a mistake in dynabs; please report it."

@@ -1,11 +1,13 @@
-//! The output directory of a run: staged, hashed, renamed into place, described by a manifest.
+//! The output directory of a run: staged, hashed, renamed into place, described by a manifest; and opened again.
 
 mod hashing;
 mod manifest;
+mod open;
 mod staging;
 mod write;
 
 pub use hashing::{HashingWriter, sha256_hex};
 pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile, ProbabilityReport};
+pub use open::{OpenError, Run};
 pub use staging::{RunDirectoryError, Staging};
 pub use write::{NATIVE_MODEL, WriteOptions, write_run};

@@ -22,6 +22,9 @@ pub struct WriteOptions {
 /// The name of the native model in a run's directory.
 pub const NATIVE_MODEL: &str = "model.dynabs";
 
+/// The name of the problem in a run's directory.
+pub(super) const PROBLEM: &str = "problem.json";
+
 /// The name of the noise samples in a run's directory.
 const NOISE: &str = "noise.csv";
 
@@ -61,7 +64,7 @@ pub fn write_run(
     }
     staging.write(NATIVE_MODEL, |out| native::write(model, out))?;
     staging.write("model.props", |out| writeln!(out, "{}", abstraction.property))?;
-    staging.write("problem.json", |out| out.write_all(self_contained(document, problem).as_bytes()))?;
+    staging.write(PROBLEM, |out| out.write_all(self_contained(document, problem).as_bytes()))?;
     staging.write(NOISE, |out| match &problem.noise.file {
         Some((_, text)) => out.write_all(text.as_bytes()),
         None => out.write_all(problem.noise.samples.to_csv().as_bytes()),
