@@ -54,6 +54,7 @@
 pub mod abstraction;
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod controller;
 pub mod crosscheck;
 pub mod dynamics;
 pub mod formats;

@@ -3,7 +3,7 @@
 use super::NoiseSamples;
 use crate::numeric::{ExactMatrix, to_f64};
 use nalgebra::{DMatrix, DVector};
-use rand::SeedableRng;
+use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 use rand_distr::{Distribution, StandardNormal};
 
@@ -24,17 +24,29 @@ impl Gaussian {
         Some(Self { mean: DVector::from_column_slice(mean), factor })
     }
 
+    /// The dimension of the noise.
+    pub fn dimension(&self) -> usize {
+        self.mean.len()
+    }
+
+    /// Draws one sample, `n` numbers.
+    pub fn draw(&self, rng: &mut impl Rng, sample: &mut [f64]) {
+        sample.iter_mut().for_each(|z| *z = StandardNormal.sample(rng));
+        // From the last entry up, those that are still needed are still there: F is lower triangular.
+        for i in (0..sample.len()).rev() {
+            let sum = (0..=i).fold(0.0, |sum, j| sum + self.factor[(i, j)] * sample[j]);
+            sample[i] = self.mean[i] + sum;
+        }
+    }
+
     /// `count` independent samples: the same for the same seed, on every machine.
     ///
     /// ChaCha with 12 rounds; the seed is expanded as `rand`'s `seed_from_u64` does.
     pub fn sample(&self, count: usize, seed: u64) -> NoiseSamples {
         let mut rng = ChaCha12Rng::seed_from_u64(seed);
         let n = self.mean.len();
-        let mut values = Vec::with_capacity(count * n);
-        for _ in 0..count {
-            let normal = DVector::from_fn(n, |_, _| StandardNormal.sample(&mut rng));
-            values.extend((&self.mean + &self.factor * normal).iter());
-        }
+        let mut values = vec![0.0; count * n];
+        values.chunks_exact_mut(n).for_each(|sample| self.draw(&mut rng, sample));
         NoiseSamples::new(n, values)
     }
 }

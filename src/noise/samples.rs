@@ -49,6 +49,11 @@ impl NoiseSamples {
         self.values.chunks_exact(self.dimension)
     }
 
+    /// Sample number `i`, counted from 0.
+    pub fn sample(&self, i: usize) -> &[f64] {
+        &self.values[i * self.dimension..(i + 1) * self.dimension]
+    }
+
     /// `max |δ_j|` over all samples, per dimension.
     pub fn magnitudes(&self) -> Vec<f64> {
         let mut magnitudes = vec![0.0f64; self.dimension];

@@ -57,11 +57,19 @@ impl Policy {
     /// The index of the choice made in `state` after `elapsed` steps, counted in the state's own choices.
     pub fn choice(&self, state: StateId, elapsed: u64) -> Option<u32> {
         let left = self.horizon.map_or(Some(1), |horizon| horizon.checked_sub(elapsed))?;
-        let range =
-            self.starts.get(state as usize).copied()?..self.starts.get(state as usize + 1).copied()?;
-        let changes = &self.changes[range];
+        let changes = self.changes(state);
         let later = changes.partition_point(|&(from, _)| from <= left);
         later.checked_sub(1).map(|index| changes[index].1)
+    }
+
+    /// `(steps left, choice)` of a state: each holds from that many steps left upwards; ascending.
+    ///
+    /// A stationary policy has one pair at most, with 1 step left.
+    pub fn changes(&self, state: StateId) -> &[(u64, u32)] {
+        match (self.starts.get(state as usize), self.starts.get(state as usize + 1)) {
+            (Some(&start), Some(&end)) => &self.changes[start..end],
+            _ => &[],
+        }
     }
 
     /// The row of the choice made in `state` after `elapsed` steps.
@@ -73,8 +81,8 @@ impl Policy {
 /// Stands for "no choice".
 pub(super) const NO_CHOICE: u32 = u32::MAX;
 
-/// The row of a state's choice.
-pub(super) fn row_of_choice(choices: &Choices, state: StateId, choice: u32) -> Option<RowId> {
+/// The row of a state's choice, counted in the state's own choices; `None` if it has fewer.
+pub fn row_of_choice(choices: &Choices, state: StateId, choice: u32) -> Option<RowId> {
     let mut left = choice as usize;
     for range in choices.ranges(state) {
         if left < range.len() {

@@ -1,0 +1,15 @@
+//! The closed loop, many times: what happens, as against what was promised.
+
+mod input_check;
+mod noise;
+mod plant;
+mod runs;
+mod tally;
+mod trajectory;
+
+pub use input_check::{InputCheck, Violation};
+pub use noise::Noise;
+pub use plant::Plant;
+pub use runs::{End, RunOutcome, Simulation};
+pub use tally::{Frequency, Tally};
+pub use trajectory::{Trajectory, TrajectoryStep};
