@@ -1,12 +1,14 @@
 //! `dynabs-check`: its subcommands.
 
+use super::controller::{ControllerArguments, run as controller};
 use super::diff::{DiffArguments, run as diff};
+use super::simulate::{SimulateArguments, run as simulate};
 use super::solve::{SolveArguments, run as solve};
 use super::{CliError, use_threads};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
-/// Solve interval MDPs and interval DTMCs by robust value iteration, with bounds from below and above.
+/// Solve interval MDPs by robust value iteration with bounds from below and above; write and simulate controllers.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "dynabs-check", version, after_help = AFTER_HELP)]
 pub struct Arguments {
@@ -22,13 +24,18 @@ pub struct Arguments {
 enum Command {
     /// Solve properties of a compiled model or of explicit PRISM files.
     Solve(SolveArguments),
+    /// Write the controller of a compiled model as JSON, CSV or C.
+    Controller(ControllerArguments),
+    /// Simulate the closed loop of a compiled model and compare with what is promised.
+    Simulate(SimulateArguments),
     /// Compare two run directories, models, results or reference files; exit code 1 on a difference.
     Diff(DiffArguments),
 }
 
 const AFTER_HELP: &str = "\
-Exit codes: 0 done (and every property true), 1 a property is false at an initial state or a comparison differs,
-2 bad input or usage, 3 undecided (limit, interrupt, or the bounds straddle the threshold), 4 I/O or internal error.";
+Exit codes: 0 done (and every property true), 1 a property is false at an initial state, a comparison differs
+or a simulation contradicts the promise, 2 bad input or usage, 3 undecided (limit, interrupt, or the bounds straddle the
+threshold), 4 I/O or internal error (also an input outside U).";
 
 /// Runs the tool.
 ///
@@ -38,6 +45,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
     use_threads(arguments.threads)?;
     match &arguments.command {
         Command::Solve(arguments) => solve(arguments),
+        Command::Controller(arguments) => controller(arguments),
+        Command::Simulate(arguments) => simulate(arguments),
         Command::Diff(arguments) => diff(arguments),
     }
 }

@@ -15,6 +15,9 @@ pub enum CliError {
     /// The system or this program failed (exit code 4).
     #[error("{0}")]
     Failure(String),
+    /// The user ended it before there was anything to say (exit code 3).
+    #[error("interrupted")]
+    Interrupted,
     /// Nobody reads the output any more; nothing to report.
     #[error("the output was closed")]
     OutputClosed,
@@ -78,7 +81,7 @@ impl CliError {
 
 /// Reports an error on stderr and turns the outcome into an exit code.
 ///
-/// 0 done, 2 bad input or usage, 4 I/O or internal error; 1 and 3 are `dynabs-check`'s.
+/// 0 done, 2 bad input or usage, 3 interrupted, 4 I/O or internal error; 1 is up to the tool.
 pub fn exit_with(outcome: Result<ExitCode, CliError>) -> ExitCode {
     match outcome {
         Ok(code) => code,
@@ -86,7 +89,11 @@ pub fn exit_with(outcome: Result<ExitCode, CliError>) -> ExitCode {
         Err(error) => {
             // If stderr is closed too, the exit code has to do.
             let _ = writeln!(io::stderr(), "error: {error}");
-            ExitCode::from(if matches!(error, CliError::Input(_)) { 2 } else { 4 })
+            ExitCode::from(match error {
+                CliError::Input(_) => 2,
+                CliError::Interrupted => 3,
+                _ => 4,
+            })
         }
     }
 }

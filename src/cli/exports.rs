@@ -95,7 +95,10 @@ fn action_name(model: &IntervalMdp, index: u64, row: Option<u32>, choice: u32) -
 }
 
 /// Writes a file beside its place and renames it: nobody ever sees half of it.
-fn replace(path: &Path, fill: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result<(), CliError> {
+pub(super) fn replace(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
+) -> Result<(), CliError> {
     let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let write = || {
         let mut builder = tempfile::Builder::new();

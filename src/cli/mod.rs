@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod compile;
+pub mod controller;
 pub mod diff;
 mod error;
 mod exports;
@@ -9,9 +10,14 @@ mod model_source;
 mod output;
 mod progress;
 mod results;
+mod run_source;
+pub mod simulate;
+mod simulation_noise;
+mod simulation_report;
 pub mod solve;
 mod summary;
 mod threads;
+mod trajectories;
 
 pub use error::{CliError, exit_with};
 pub use output::{print, thousands};

@@ -1,5 +1,6 @@
 //! The refined feedback law `c(x, k)`, and the closed loop that it makes.
 
+pub mod export;
 mod law;
 mod refined;
 mod schedule;

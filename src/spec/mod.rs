@@ -16,7 +16,7 @@ pub use model_file::{
     DynamicsSpec, GaussianSpec, GridSpec, GroupSteps, Horizon, LqrSpec, Mode, ModelFile, NoiseSpec,
     ProbabilitiesSpec, RegionSpec, SampleKind, SamplesSpec, SetSpec, StabilizerSpec, TargetsSpec, TaskSpec,
 };
-pub use noise::NoiseSource;
+pub use noise::{NoiseSource, StepNoise};
 pub use problem::{Probabilities, Problem, TargetPoints};
 pub use schema::{json_schema, starter_model};
 pub use stabilizer::Stabilizer;

@@ -1,10 +1,11 @@
 //! Where the noise samples come from.
 
 use super::values::{symmetric, vector};
-use super::{Diagnostic, Document, NoiseSpec, SampleKind, SamplesSpec};
+use super::{Diagnostic, NoiseSpec, SampleKind, SamplesSpec};
 use crate::dynamics::LinearSystem;
 use crate::noise::{CsvError, Gaussian, NoiseSamples, parse_csv};
 use crate::numeric::{Definiteness, to_f64};
+use std::path::Path;
 
 /// The most samples that quantiles are proven for.
 const MAX_SAMPLES: u64 = 10_000_000;
@@ -14,6 +15,8 @@ const MAX_SAMPLES: u64 = 10_000_000;
 pub struct NoiseSource {
     /// Samples of the grouped noise.
     pub samples: NoiseSamples,
+    /// What is known of the noise of one step.
+    pub of_one_step: StepNoise,
     /// The seed, if they were drawn.
     pub seed: Option<u64>,
     /// The file they were read from, as named in the model file, and its content.
@@ -22,16 +25,41 @@ pub struct NoiseSource {
     pub warnings: Vec<String>,
 }
 
-/// Reads or draws the samples of the noise of `d` steps of `system`.
-pub(super) fn noise_source(
-    document: &Document,
+/// What is known of the noise of one step.
+#[derive(Clone, Debug)]
+pub enum StepNoise {
+    /// Its distribution.
+    Gaussian(Gaussian),
+    /// Samples of it.
+    Samples(NoiseSamples),
+    /// Nothing: the samples are of grouped steps.
+    Unknown,
+}
+
+impl NoiseSource {
+    /// Reads or draws samples of the noise of `d` steps of `system`; files are relative to `directory`.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] for the first mistake found.
+    pub fn new(
+        directory: &Path,
+        spec: &NoiseSpec,
+        system: &LinearSystem,
+        d: usize,
+    ) -> Result<Self, Diagnostic> {
+        noise_source(directory, spec, system, d)
+    }
+}
+
+fn noise_source(
+    directory: &Path,
     spec: &NoiseSpec,
     system: &LinearSystem,
     d: usize,
 ) -> Result<NoiseSource, Diagnostic> {
     match spec {
         NoiseSpec { samples: Some(samples), gaussian: None, count: None, seed: None } => {
-            read_samples(document, samples, system, d)
+            read_samples(directory, samples, system, d)
         }
         NoiseSpec { samples: None, gaussian: Some(gaussian), count, seed } => {
             let n = system.state_dimension();
@@ -60,10 +88,10 @@ pub(super) fn noise_source(
             let seed = seed.unwrap_or(0);
             let unstable =
                 || Diagnostic::at(place, "a matrix without a factor", "a positive semidefinite matrix");
-            let steps =
-                Gaussian::new(&mean, &covariance).ok_or_else(unstable)?.sample(count as usize * d, seed);
-            let samples = steps.grouped(system, d);
-            Ok(NoiseSource { samples, seed: Some(seed), file: None, warnings: vec![] })
+            let gaussian = Gaussian::new(&mean, &covariance).ok_or_else(unstable)?;
+            let samples = gaussian.sample(count as usize * d, seed).grouped(system, d);
+            let of_one_step = StepNoise::Gaussian(gaussian);
+            Ok(NoiseSource { samples, of_one_step, seed: Some(seed), file: None, warnings: vec![] })
         }
         _ => {
             let fields = [
@@ -80,12 +108,12 @@ pub(super) fn noise_source(
 }
 
 fn read_samples(
-    document: &Document,
+    directory: &Path,
     spec: &SamplesSpec,
     system: &LinearSystem,
     d: usize,
 ) -> Result<NoiseSource, Diagnostic> {
-    let path = document.directory.join(&spec.file);
+    let path = directory.join(&spec.file);
     let name = path.display().to_string();
     let text = std::fs::read_to_string(&path).map_err(|error| {
         Diagnostic::at("/noise/samples/file", format!("\"{}\" ({error})", spec.file), "a readable CSV file")
@@ -112,8 +140,8 @@ fn read_samples(
         return Err(Diagnostic::at("", format!("{} samples", read.len()), expected).in_file(&name));
     }
     let mut warnings = Vec::new();
-    let samples = match spec.of {
-        SampleKind::Grouped => read,
+    let (samples, of_one_step) = match spec.of {
+        SampleKind::Grouped => (read, StepNoise::Unknown),
         SampleKind::Step => {
             let left_over = read.len() % d;
             if left_over > 0 && read.len() > d {
@@ -122,12 +150,12 @@ fn read_samples(
                     read.len()
                 ));
             }
-            read.grouped(system, d)
+            (read.grouped(system, d), StepNoise::Samples(read))
         }
     };
     if samples.is_empty() {
         let found = format!("{} samples of one step", text.lines().count());
         return Err(Diagnostic::at("", found, format!("at least {d}, one group")).in_file(&name));
     }
-    Ok(NoiseSource { samples, seed: None, file: Some((spec.file.clone(), text)), warnings })
+    Ok(NoiseSource { samples, of_one_step, seed: None, file: Some((spec.file.clone(), text)), warnings })
 }

@@ -4,7 +4,7 @@ use super::values::{input_set, matrix, vector};
 use super::{
     Diagnostic, Document, DynamicsSpec, GroupSteps, Horizon, Mode, NoiseSource, ProbabilitiesSpec, Stabilizer,
 };
-use super::{noise, regions, stabilizer};
+use super::{regions, stabilizer};
 use crate::dynamics::{LinearSystem, group, smallest_group};
 use crate::geometry::Polytope;
 use crate::numeric::{ExactMatrix, Rational, from_decimal, to_f64};
@@ -119,7 +119,7 @@ impl Problem {
             Some(spec) => Some(stabilizer::stabilizer(spec, &system, &input, &grid)?),
         };
         let probabilities = probabilities(&file.probabilities)?;
-        let noise = noise::noise_source(document, &file.noise, &step_system, group_steps)?;
+        let noise = NoiseSource::new(&document.directory, &file.noise, &step_system, group_steps)?;
         warnings.extend(stabilizer.iter().flat_map(|s| s.warnings.iter().cloned()));
         warnings.extend(noise.warnings.iter().cloned());
         Ok(Self {

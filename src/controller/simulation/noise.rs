@@ -1,6 +1,7 @@
 //! The noise of a simulated run.
 
 use crate::noise::{Gaussian, NoiseSamples};
+use crate::spec::{NoiseSource, StepNoise};
 use rand::{Rng, RngExt};
 
 /// Where the noise of the closed loop comes from.
@@ -15,6 +16,15 @@ pub enum Noise {
 }
 
 impl Noise {
+    /// The noise that a source describes, and as truly as it is known: step by step if it can be.
+    pub fn of(source: &NoiseSource) -> Self {
+        match &source.of_one_step {
+            StepNoise::Gaussian(gaussian) => Self::Gaussian(gaussian.clone()),
+            StepNoise::Samples(samples) => Self::StepSamples(samples.clone()),
+            StepNoise::Unknown => Self::GroupedSamples(source.samples.clone()),
+        }
+    }
+
     /// The dimension of the noise.
     pub fn dimension(&self) -> usize {
         match self {

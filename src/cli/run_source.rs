@@ -1,0 +1,51 @@
+//! A run directory opened and solved: where controllers come from.
+
+use super::{Bars, CliError};
+use crate::controller::{Controller, ControllerError};
+use crate::progress::Progress;
+use crate::run_directory::{OpenError, Run};
+use crate::solver::{SolverOptions, Status};
+use std::path::Path;
+use std::sync::Arc;
+
+impl From<OpenError> for CliError {
+    fn from(error: OpenError) -> Self {
+        match error {
+            OpenError::Io { .. } => Self::Failure(error.to_string()),
+            _ => Self::Input(error.to_string()),
+        }
+    }
+}
+
+impl From<ControllerError> for CliError {
+    fn from(error: ControllerError) -> Self {
+        Self::Failure(error.to_string())
+    }
+}
+
+/// Opens a run, solves its task and refines the policy.
+///
+/// The policy is not stored anywhere: it is computed anew, and is the same every time.
+///
+/// # Errors
+/// [`CliError`] if the directory is no run, or if it was interrupted.
+pub(super) fn refine(directory: &Path, bars: &Arc<Bars>) -> Result<(Run, Controller), CliError> {
+    let run = Run::open(directory, &**bars)?;
+    bars.catch_interrupts()?;
+    let progress =
+        |iteration, gap: f64| bars.note(|| format!("iteration {iteration}, bounds {gap:.1e} apart"));
+    let options = SolverOptions {
+        interrupt: Some(bars.interrupt()),
+        progress: Some(&progress),
+        policy: true,
+        ..SolverOptions::default()
+    };
+    let answer = run.solve(&options);
+    bars.finish();
+    let answer = answer.map_err(|error| CliError::Failure(error.to_string()))?;
+    if answer.solution.status == Status::Interrupted {
+        return Err(CliError::Interrupted);
+    }
+    let controller = Controller::new(&run.problem, &run.abstraction, &answer)?;
+    Ok((run, controller))
+}

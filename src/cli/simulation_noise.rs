@@ -1,0 +1,136 @@
+//! Which noise a simulation has.
+
+use super::CliError;
+use crate::controller::Noise;
+use crate::run_directory::Run;
+use crate::spec::{GaussianSpec, NoiseSource, NoiseSpec, SampleKind, SamplesSpec, StepNoise};
+use clap::{Args, ValueEnum};
+use std::path::Path;
+
+/// The noise of a simulation.
+#[derive(Clone, Debug, Args)]
+pub struct NoiseArguments {
+    /// `gaussian` (the model's distribution, or --covariance), `samples` (the model's, drawn with
+    /// replacement), or a CSV file of other samples. Default: gaussian if the model has one, else samples.
+    #[arg(long, value_name = "gaussian|samples|FILE")]
+    noise: Option<String>,
+
+    /// The covariance of Gaussian noise of one original step, as JSON, instead of the model's noise.
+    #[arg(long, value_name = "[[...],...]")]
+    covariance: Option<String>,
+
+    /// The mean that goes with --covariance, as JSON; 0 if absent.
+    #[arg(long, value_name = "[...]", requires = "covariance")]
+    mean: Option<String>,
+
+    /// What a sample of the CSV file is the noise of.
+    #[arg(long, value_name = "KIND", default_value = "step")]
+    of: Of,
+}
+
+/// What a sample is the noise of.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Of {
+    /// One original step.
+    Step,
+    /// One group of steps.
+    Grouped,
+}
+
+/// A noise and what to say about it.
+pub(super) struct ChosenNoise {
+    pub(super) noise: Noise,
+    pub(super) name: String,
+    /// Why it is no independent check of the promise, or not the whole story.
+    pub(super) notes: Vec<String>,
+}
+
+/// The noise that was asked for, or the best that the model knows.
+///
+/// # Errors
+/// [`CliError::Input`] if the model has none of that kind, or file or covariance are malformed.
+pub(super) fn noise(arguments: &NoiseArguments, run: &Run) -> Result<ChosenNoise, CliError> {
+    let own = &run.problem.noise;
+    let is_gaussian = matches!(own.of_one_step, StepNoise::Gaussian(_));
+    let chosen = match (arguments.noise.as_deref(), &arguments.covariance) {
+        (None | Some("gaussian"), Some(covariance)) => {
+            let noise = Noise::of(&given_gaussian(covariance, arguments.mean.as_deref(), run)?);
+            ChosenNoise { noise, name: format!("Gaussian, covariance {covariance}"), notes: vec![] }
+        }
+        (Some(other), Some(_)) => {
+            return Err(CliError::Input(format!(
+                "--covariance: found --noise {other}; expected --noise gaussian"
+            )));
+        }
+        (None | Some("gaussian"), None) if is_gaussian => {
+            ChosenNoise { noise: Noise::of(own), name: "Gaussian, the model's".into(), notes: vec![] }
+        }
+        (Some("gaussian"), None) => {
+            return Err(CliError::Input(
+                "--noise gaussian: found a model with samples only; expected a model with a distribution, or --covariance"
+                    .into(),
+            ));
+        }
+        (None | Some("samples"), None) => {
+            let noise = if is_gaussian { Noise::GroupedSamples(own.samples.clone()) } else { Noise::of(own) };
+            let name = format!("the model's {} samples, drawn with replacement", own.samples.len());
+            let note = "these are the samples that the promise rests on: this is no independent check of it";
+            ChosenNoise { noise, name, notes: vec![note.into()] }
+        }
+        (Some(file), None) => {
+            let noise = Noise::of(&given_samples(Path::new(file), arguments.of, run)?);
+            ChosenNoise { noise, name: format!("samples of {file}, drawn with replacement"), notes: vec![] }
+        }
+    };
+    Ok(chosen.with_notes(run.problem.group_steps))
+}
+
+impl ChosenNoise {
+    fn with_notes(mut self, group_steps: usize) -> Self {
+        if group_steps > 1 && !self.noise.is_stepwise() {
+            self.notes.push(format!(
+                "samples of {group_steps} steps together come with the last of these steps: states in between are those \
+                 without noise"
+            ));
+        }
+        self
+    }
+}
+
+fn given_gaussian(covariance: &str, mean: Option<&str>, run: &Run) -> Result<NoiseSource, CliError> {
+    let malformed = |option: &str, text: &str, expected: &str| {
+        CliError::Input(format!("{option}: found \"{text}\"; expected {expected}"))
+    };
+    let expected = "a matrix in JSON such as [[1,0],[0,1]]";
+    let parsed =
+        serde_json::from_str(covariance).map_err(|_| malformed("--covariance", covariance, expected))?;
+    let mean = mean.map(|text| {
+        serde_json::from_str(text).map_err(|_| malformed("--mean", text, "a list in JSON such as [0,0]"))
+    });
+    let gaussian = GaussianSpec { mean: mean.transpose()?, covariance: parsed };
+    // One sample: only the distribution is wanted.
+    let spec = NoiseSpec { samples: None, gaussian: Some(gaussian), count: Some(1), seed: None };
+    read(Path::new(""), &spec, "--covariance", run)
+}
+
+fn given_samples(file: &Path, of: Of, run: &Run) -> Result<NoiseSource, CliError> {
+    if !file.exists() {
+        return Err(CliError::Input(format!(
+            "--noise: found no file {}; expected gaussian, samples, or a CSV file",
+            file.display()
+        )));
+    }
+    let of = match of {
+        Of::Step => SampleKind::Step,
+        Of::Grouped => SampleKind::Grouped,
+    };
+    let samples = SamplesSpec { file: file.display().to_string(), of };
+    let spec = NoiseSpec { samples: Some(samples), gaussian: None, count: None, seed: None };
+    read(Path::new(""), &spec, "--noise", run)
+}
+
+fn read(directory: &Path, spec: &NoiseSpec, option: &str, run: &Run) -> Result<NoiseSource, CliError> {
+    let problem = &run.problem;
+    let source = NoiseSource::new(directory, spec, &problem.step_system, problem.group_steps);
+    Ok(source.map_err(|error| error.in_file(option))?)
+}

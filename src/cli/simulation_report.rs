@@ -1,0 +1,180 @@
+//! What a simulation showed, for people and programs.
+
+use super::simulation_noise::ChosenNoise;
+use super::{CliError, thousands};
+use crate::controller::export::Promise;
+use crate::controller::{Controller, Frequency, Tally};
+use crate::numeric::{Rational, from_decimal, shortest_decimal, to_f64};
+use crate::run_directory::Run;
+use num_traits::One;
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// A simulation against the promise.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Report {
+    name: String,
+    mode: &'static str,
+    from: Vec<f64>,
+    noise: String,
+    seed: u64,
+    /// The promised probability of success from there.
+    bound: f64,
+    /// The confidence of the promise; none in reference mode, which promises nothing.
+    promise_confidence: Option<f64>,
+    /// In the true sets.
+    satisfied: Frequency,
+    /// In goal cells.
+    reached: Frequency,
+    contradiction: bool,
+    counts: Tally,
+    inputs_checked: u64,
+    group_steps: u64,
+    seconds: f64,
+    notes: Vec<String>,
+}
+
+impl Report {
+    #[allow(clippy::too_many_arguments)]
+    pub(super) fn new(
+        run: &Run,
+        controller: &Controller,
+        noise: ChosenNoise,
+        from: Vec<f64>,
+        seed: u64,
+        tally: Tally,
+        confidence: f64,
+        seconds: f64,
+    ) -> Self {
+        let promise = Promise::new(&run.problem, controller);
+        // Of the decimal that was written: 0.01 for 0.99.
+        let alpha = from_decimal(confidence).map_or(0.01, |p| to_f64(&(Rational::one() - p)));
+        let bound = controller.bound_at(&from);
+        let satisfied = tally.satisfaction(alpha);
+        Self {
+            name: run.manifest.name.clone(),
+            mode: promise.mode,
+            from,
+            noise: noise.name,
+            seed,
+            bound,
+            promise_confidence: promise.confidence,
+            satisfied,
+            reached: tally.reaching(alpha),
+            contradiction: satisfied.contradicts(bound),
+            inputs_checked: tally.steps * controller.group_steps() as u64,
+            counts: tally,
+            group_steps: promise.group_steps,
+            seconds,
+            notes: noise.notes,
+        }
+    }
+
+    pub(super) fn json(&self) -> Result<String, CliError> {
+        let text = serde_json::to_string_pretty(self)
+            .map_err(|error| CliError::Failure(format!("the report has no JSON form: {error}")))?;
+        Ok(text + "\n")
+    }
+
+    pub(super) fn text(&self) -> String {
+        let from: Vec<_> = self.from.iter().map(|&x| shortest_decimal(x)).collect();
+        let mut text = format!(
+            "{} ({} mode): {} runs from ({})\n",
+            self.name,
+            self.mode,
+            thousands(self.counts.runs),
+            from.join(", ")
+        );
+        let mut line = |name: &str, value: String| {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "  {name:<12}{value}");
+        };
+        line("noise", self.noise.clone());
+        let promise = match self.promise_confidence {
+            Some(confidence) => format!("with confidence {confidence}"),
+            None => "in reference mode: not a guarantee".to_owned(),
+        };
+        line("promised", format!("at least {:.6} {promise}", self.bound));
+        line("satisfied", format!("{} in the goal region", frequency(&self.satisfied)));
+        line("reached", format!("{} in goal cells", frequency(&self.reached)));
+        let counts = &self.counts;
+        let ends = [
+            ("reached", counts.reached),
+            ("unsafe", counts.r#unsafe),
+            ("outside", counts.outside),
+            ("no action", counts.no_action),
+            ("horizon over", counts.over),
+            ("given up", counts.unfinished),
+        ];
+        let ends: Vec<_> = (ends.iter().filter(|(_, count)| *count > 0))
+            .map(|(name, count)| format!("{name} {}", thousands(*count)))
+            .collect();
+        line("ended", ends.join(", "));
+        let (checked, violations) = (thousands(self.inputs_checked), thousands(counts.violations));
+        line("inputs", format!("{checked} checked, {violations} outside U"));
+        if self.group_steps > 1 {
+            line(
+                "in between",
+                format!(
+                    "{} runs met the unsafe region between grouped instants, {} of them satisfied; this is not covered",
+                    thousands(counts.unsafe_between),
+                    thousands(counts.satisfied_unsafe_between)
+                ),
+            );
+        }
+        line("time", format!("{:.2} s", self.seconds));
+        for note in &self.notes {
+            line("note", note.clone());
+        }
+        text
+    }
+
+    /// Says on stderr what should not be.
+    pub(super) fn warn(&self) {
+        if self.contradiction {
+            let meaning = match self.promise_confidence {
+                Some(_) => {
+                    "the samples are among the few that mislead, the noise is not the one they are of, or there is \
+                            a mistake in dynabs"
+                }
+                None => "reference mode promises nothing",
+            };
+            // If stderr is closed there is nobody to warn.
+            let _ = writeln!(
+                io::stderr(),
+                "warning: the simulation contradicts the promise: at least {:.6} against at most {:.6} with confidence {}\n  \
+                 Either {meaning}.",
+                self.bound,
+                self.satisfied.upper,
+                self.satisfied.confidence
+            );
+        }
+    }
+
+    /// The exit code.
+    ///
+    /// # Errors
+    /// [`CliError::Failure`] if an input left `U`.
+    pub(super) fn outcome(&self) -> Result<ExitCode, CliError> {
+        if let Some(first) = &self.counts.first_violation {
+            return Err(CliError::Failure(format!(
+                "{} inputs were outside U, the first in run {}, step {}: u = {:?} in x = {:?} exceeds half-space {} by {:e}\n  \
+                 This is a mistake in dynabs; please report it.",
+                self.counts.violations,
+                first.run,
+                first.step,
+                first.input,
+                first.state,
+                first.half_space,
+                first.excess
+            )));
+        }
+        Ok(ExitCode::from(u8::from(self.contradiction)))
+    }
+}
+
+fn frequency(f: &Frequency) -> String {
+    format!("{:.6} in [{:.6}, {:.6}] with confidence {}", f.frequency, f.lower, f.upper, f.confidence)
+}
