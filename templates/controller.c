@@ -2,15 +2,16 @@
  *
 {{promise}}
  *
- * {{function}}(x, k, u) looks at the state x after k groups of {{PREFIX}}_GROUP steps and, if it returns
- * {{PREFIX}}_STEER, writes the inputs of the next {{PREFIX}}_GROUP steps into u, the first step first. Each
- * of them is in U. Any other status is final and leaves u as it was:
+ * {{function}}(x, k, u)
+ *
+ * looks at the state x after k groups of {{group}} steps. If it returns STEER, u holds the inputs of the next
+ * group, those of the first step first, each of them in U. Any other status is final and leaves u as it was:
  *
  *   REACHED    the goal is reached: the task is done
  *   UNSAFE     the cell of x meets the unsafe region: the task has failed
  *   OUTSIDE    x is outside the partition, or not a number: the task has failed
  *   NO_ACTION  no target can be steered to from the whole cell of x without leaving U
- *   OVER       the horizon of {{PREFIX}}_HORIZON groups has passed (a horizon of 0 is unlimited; k is ignored)
+ *   OVER       the horizon has passed; a horizon of 0 is unlimited, then k is ignored
  *
  * No allocation, no state, no library: every table is constant, and so is the memory used. Compile as C99
  * without contraction of products and sums, and the results are those of dynabs bit by bit:
@@ -39,8 +40,8 @@ enum {{prefix}}_status {
     {{PREFIX}}_OVER = 5
 };
 
-enum {{prefix}}_status {{function}}(const double x[{{PREFIX}}_STATES], uint32_t k,
-                                    double u[{{PREFIX}}_GROUP][{{PREFIX}}_INPUTS]);
+enum {{prefix}}_status {{function}}(
+    const double x[{{PREFIX}}_STATES], uint32_t k, double u[{{PREFIX}}_GROUP][{{PREFIX}}_INPUTS]);
 
 /* u = constant + target_gain * target + state_gain * x, for all steps of a group. */
 static const double constant[{{PREFIX}}_GROUP * {{PREFIX}}_INPUTS] = {
@@ -107,8 +108,8 @@ static uint32_t faces_passed(const double *face, uint32_t count, double x)
     return low;
 }
 
-enum {{prefix}}_status {{function}}(const double x[{{PREFIX}}_STATES], uint32_t k,
-                                    double u[{{PREFIX}}_GROUP][{{PREFIX}}_INPUTS])
+enum {{prefix}}_status {{function}}(
+    const double x[{{PREFIX}}_STATES], uint32_t k, double u[{{PREFIX}}_GROUP][{{PREFIX}}_INPUTS])
 {
     const double *aim;
     uint32_t cell = 0, left, entry, i, j;

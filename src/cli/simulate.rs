@@ -3,7 +3,7 @@
 use super::exports::replace;
 use super::run_source::refine;
 use super::simulation_noise::{NoiseArguments, noise};
-use super::simulation_report::Report;
+use super::simulation_report::{Report, Simulated};
 use super::trajectories::write_trajectories;
 use super::{Bars, CliError, print};
 use crate::controller::Simulation;
@@ -88,8 +88,9 @@ pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, CliError> {
         let trajectories = (0..kept).map(|run| simulation.trajectory(&start, arguments.seed, run));
         replace(path, |out| write_trajectories(&run.problem, trajectories, out))?;
     }
+    let SimulateArguments { seed, confidence, .. } = *arguments;
     let report =
-        Report::new(&run, &controller, noise, start, arguments.seed, tally, arguments.confidence, seconds);
+        Report::new(&run, &controller, noise, Simulated { from: start, seed, confidence, tally, seconds });
     if arguments.json {
         print(&report.json()?)?;
     } else if !arguments.quiet {

@@ -2,7 +2,7 @@
 
 use super::simulation_noise::ChosenNoise;
 use super::{CliError, thousands};
-use crate::controller::export::Promise;
+use crate::controller::export::{Promise, lower_bound_text};
 use crate::controller::{Controller, Frequency, Tally};
 use crate::numeric::{Rational, from_decimal, shortest_decimal, to_f64};
 use crate::run_directory::Run;
@@ -36,18 +36,19 @@ pub(super) struct Report {
     notes: Vec<String>,
 }
 
+/// What was simulated and what it came to.
+pub(super) struct Simulated {
+    pub(super) from: Vec<f64>,
+    pub(super) seed: u64,
+    /// Of the Clopper–Pearson intervals.
+    pub(super) confidence: f64,
+    pub(super) tally: Tally,
+    pub(super) seconds: f64,
+}
+
 impl Report {
-    #[allow(clippy::too_many_arguments)]
-    pub(super) fn new(
-        run: &Run,
-        controller: &Controller,
-        noise: ChosenNoise,
-        from: Vec<f64>,
-        seed: u64,
-        tally: Tally,
-        confidence: f64,
-        seconds: f64,
-    ) -> Self {
+    pub(super) fn new(run: &Run, controller: &Controller, noise: ChosenNoise, simulated: Simulated) -> Self {
+        let Simulated { from, seed, confidence, tally, seconds } = simulated;
         let promise = Promise::new(&run.problem, controller);
         // Of the decimal that was written: 0.01 for 0.99.
         let alpha = from_decimal(confidence).map_or(0.01, |p| to_f64(&(Rational::one() - p)));
@@ -96,7 +97,7 @@ impl Report {
             Some(confidence) => format!("with confidence {confidence}"),
             None => "in reference mode: not a guarantee".to_owned(),
         };
-        line("promised", format!("at least {:.6} {promise}", self.bound));
+        line("promised", format!("at least {} {promise}", lower_bound_text(self.bound)));
         line("satisfied", format!("{} in the goal region", frequency(&self.satisfied)));
         line("reached", format!("{} in goal cells", frequency(&self.reached)));
         let counts = &self.counts;
@@ -144,9 +145,9 @@ impl Report {
             // If stderr is closed there is nobody to warn.
             let _ = writeln!(
                 io::stderr(),
-                "warning: the simulation contradicts the promise: at least {:.6} against at most {:.6} with confidence {}\n  \
+                "warning: the simulation contradicts the promise: at least {} against at most {:.6} with confidence {}\n  \
                  Either {meaning}.",
-                self.bound,
+                lower_bound_text(self.bound),
                 self.satisfied.upper,
                 self.satisfied.confidence
             );

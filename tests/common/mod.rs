@@ -1,6 +1,8 @@
 //! What integration tests share.
 #![allow(dead_code)]
 
+pub mod controllers;
+
 use dynabs::abstraction::{Abstraction, compile};
 use dynabs::spec::{Diagnostic, Document, Problem};
 use serde_json::Value;

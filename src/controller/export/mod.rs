@@ -9,4 +9,4 @@ mod template;
 pub use c_source::{CSourceError, c_source};
 pub use csv::write_csv;
 pub use json::write_json;
-pub use promise::Promise;
+pub use promise::{Promise, lower_bound_text};

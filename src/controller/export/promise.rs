@@ -1,7 +1,7 @@
 //! What is promised about a controller, in words and numbers.
 
 use crate::controller::Controller;
-use crate::numeric::{Rational, shortest_decimal, to_f64};
+use crate::numeric::{Rational, round_decimal_down, shortest_decimal, to_f64};
 use crate::partition::CellKind;
 use crate::spec::{Probabilities, Problem};
 use num_traits::One;
@@ -59,7 +59,7 @@ impl Promise {
             None => "From any cell that is not unsafe".to_owned(),
         };
         let within = self.horizon.map_or(String::new(), |steps| format!(" within {steps} steps"));
-        let bound = shortest_decimal(self.bound);
+        let bound = lower_bound_text(self.bound);
         let mut sentences = vec![match self.confidence {
             Some(confidence) => format!(
                 "{start} the goal is reached{within}, avoiding the unsafe region and the outside of the \
@@ -81,4 +81,9 @@ impl Promise {
         }
         sentences
     }
+}
+
+/// A lower bound with six digits, rounded down.
+pub fn lower_bound_text(bound: f64) -> String {
+    shortest_decimal(round_decimal_down(bound, 6))
 }

@@ -227,3 +227,39 @@ impl<'a> Simulation<'a> {
 fn contains(regions: &[RegionLookup], x: &[f64]) -> bool {
     regions.iter().any(|region| region.contains(x))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::abstraction::{Abstraction, compile};
+    use crate::solver::{Answer, SolverOptions};
+    use crate::spec::Document;
+    use std::path::Path;
+
+    fn room() -> (Problem, Controller) {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/room_temperature.json");
+        let document = Document::parse(&path, &std::fs::read_to_string(&path).unwrap()).unwrap();
+        let problem = Problem::from_document(&document).unwrap();
+        let abstraction: Abstraction = compile(&problem, &()).unwrap();
+        let options = SolverOptions { policy: true, ..SolverOptions::default() };
+        let answer = Answer::new(&abstraction.model, &abstraction.property, &options).unwrap();
+        let controller = Controller::new(&problem, &abstraction, &answer).unwrap();
+        (problem, controller)
+    }
+
+    #[test]
+    fn a_broken_law_is_noticed() {
+        let (problem, mut controller) = room();
+        let noise = Noise::of(&problem.noise);
+        let tally = |controller: &Controller| {
+            Simulation::new(&problem, controller, noise.clone(), 0).tally(&[2.0], 1, 1000, &())
+        };
+        let sound = tally(&controller);
+        assert_eq!((sound.violations, &sound.first_violation), (0, &None));
+        controller.law.constant[0] += 0.5;
+        let broken = tally(&controller);
+        let first = broken.first_violation.unwrap();
+        assert!(broken.violations >= 1000 && first.run == 0 && first.step == 0 && first.state == [2.0]);
+        assert!(first.input[0] > 1.75 && (first.excess - (first.input[0] - 1.75)).abs() < 1e-15);
+    }
+}
