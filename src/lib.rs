@@ -21,6 +21,7 @@
 //! | cells, targets and intervals meet | [`abstraction`] | an [`IntervalMdp`](imdp::IntervalMdp) with shared rows, and a property |
 //! | it is written for others | [`formats`], [`run_directory`] | PRISM's explicit files, a manifest |
 //! | it is solved | [`property`], [`solver`] | bounds on the robust value, a policy |
+//! | the policy is refined | [`controller`] | a feedback [`Controller`](controller::Controller), its closed loop, C code |
 //!
 //! What makes it fast: an action steers to a target point, so its distribution over cells does not depend
 //! on the cell it is taken in. An interval MDP with tens of millions of transitions has a few thousand
@@ -29,7 +30,7 @@
 //! # Example
 //!
 //! ```
-//! use dynabs::{abstraction, solver, spec};
+//! use dynabs::{abstraction, controller, solver, spec};
 //! use std::path::Path;
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -38,9 +39,14 @@
 //! let problem = spec::Problem::from_document(&document)?;
 //! let compiled = abstraction::compile(&problem, &())?;
 //!
-//! let options = solver::SolverOptions::default();
+//! let options = solver::SolverOptions { policy: true, ..Default::default() };
 //! let answer = solver::Answer::new(&compiled.model, &compiled.property, &options)?;
 //! assert!(answer.lower > 0.99);
+//!
+//! let controller = controller::Controller::new(&problem, &compiled, &answer)?;
+//! let mut u = [0.0];
+//! assert!(matches!(controller.control(&[2.0], 0, &mut u), controller::Decision::Steer { .. }));
+//! assert!(-1.75 <= u[0] && u[0] <= 1.75);
 //! # Ok(())
 //! # }
 //! ```

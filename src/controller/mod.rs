@@ -1,4 +1,10 @@
 //! The refined feedback law `c(x, k)`, and the closed loop that it makes.
+//!
+//! A [`Controller`] is made of a problem, its abstraction and a solved answer, all of which a
+//! [`Run`](crate::run_directory::Run) has. It answers for states ([`Controller::control`]) and for cells
+//! ([`Controller::decide_in`], [`Controller::entries`], [`Controller::bound`]); the mean of the next grouped
+//! state is the target itself ([`Controller::target_point`]) plus the mean of the noise. [`Simulation`] closes
+//! the loop with the original system, [`export`] writes the law as files.
 
 pub mod export;
 mod law;
