@@ -149,8 +149,17 @@ fn the_command_compares_with_the_promise() {
     assert!(stderr(&wild).contains("contradicts the promise"), "{}", stderr(&wild));
     let samples = file("wild.csv");
     fs::write(&samples, "30,-30\n-30,30\n").unwrap();
-    let wild =
-        check(&["simulate", &run, "--runs", "2000", "--noise", &samples, "--of", "grouped", "--quiet"]);
+    let wild = check(&[
+        "simulate",
+        &run,
+        "--runs",
+        "2000",
+        "--noise",
+        &samples,
+        "--samples-of",
+        "grouped",
+        "--quiet",
+    ]);
     assert_eq!((wild.status.code(), wild.stdout.len()), (Some(1), 0));
     // The model's own samples.
     let own = check(&["simulate", &run, "--runs", "2000", "--noise", "samples"]);
@@ -181,7 +190,8 @@ fn controllers_are_written_from_the_directory_alone() {
 fn mistakes_are_explained() {
     let scratch = TempDir::new().unwrap();
     let run = compiled(&scratch, "double_integrator", &[]);
-    let cases: [(&[&str], &str); 11] = [
+    let cases: [(&[&str], &str); 12] = [
+        (&["simulate", "--from=41,0"], "outside the partition"),
         (&["simulate", "--from=-20"], "--from: found \"-20\"; expected 2 numbers"),
         (&["simulate", "--from=a,0"], "--from"),
         (&["simulate", "--from=inf,0"], "--from"),

@@ -7,6 +7,7 @@ use super::simulation_report::{Report, Simulated};
 use super::trajectories::write_trajectories;
 use super::{Bars, CliError, print};
 use crate::controller::Simulation;
+use crate::partition::CellLookup;
 use crate::progress::Progress;
 use crate::run_directory::Run;
 use clap::Args;
@@ -113,10 +114,15 @@ fn start(arguments: &SimulateArguments, run: &Run) -> Result<Vec<f64>, CliError>
     };
     let numbers: Option<Vec<f64>> =
         text.split(',').map(|x| x.trim().parse().ok().filter(|x: &f64| x.is_finite())).collect();
-    match numbers {
-        Some(x) if x.len() == n => Ok(x),
-        _ => Err(CliError::Input(format!(
+    let Some(x) = numbers.filter(|x| x.len() == n) else {
+        return Err(CliError::Input(format!(
             "--from: found \"{text}\"; expected {n} numbers separated by commas, one per dimension of the state"
-        ))),
+        )));
+    };
+    if CellLookup::new(&run.problem.grid).locate(&x).is_none() {
+        return Err(CliError::Input(format!(
+            "--from: found \"{text}\", outside the partition; expected a state in it, for which something is promised"
+        )));
     }
+    Ok(x)
 }

@@ -25,7 +25,7 @@ pub struct NoiseArguments {
 
     /// What a sample of the CSV file is the noise of.
     #[arg(long, value_name = "KIND", default_value = "step")]
-    of: Of,
+    samples_of: Of,
 }
 
 /// What a sample is the noise of.
@@ -78,7 +78,7 @@ pub(super) fn noise(arguments: &NoiseArguments, run: &Run) -> Result<ChosenNoise
             ChosenNoise { noise, name, notes: vec![note.into()] }
         }
         (Some(file), None) => {
-            let noise = Noise::of(&given_samples(Path::new(file), arguments.of, run)?);
+            let noise = Noise::of(&given_samples(Path::new(file), arguments.samples_of, run)?);
             ChosenNoise { noise, name: format!("samples of {file}, drawn with replacement"), notes: vec![] }
         }
     };
