@@ -184,7 +184,7 @@ mod tests {
             (identifier("2-D"), identifier("_x"), identifier("")),
             ("c2_d".into(), "c_x".into(), "c".into())
         );
-        assert_eq!(comment("a*/ b??/\n\"é\""), "a__ b_____");
+        assert_eq!(comment("a*/ b??/\n\"é\""), "a__ b_______");
     }
 
     #[test]
