@@ -44,7 +44,7 @@ pub(super) fn write_policy(path: &Path, model: &IntervalMdp, policy: &Policy) ->
     replace(path, |out| {
         for state in 0..model.num_states() as StateId {
             let name = |choice: u32| {
-                let row = policy_row(model, state, choice);
+                let row = model.choices().row_of_choice(state, choice);
                 action_name(model, first_choices[state as usize] + u64::from(choice), row, choice)
             };
             match policy.horizon() {
@@ -77,10 +77,6 @@ fn first_choices(model: &IntervalMdp) -> Vec<u64> {
         first
     };
     (0..model.num_states() as StateId).map(of_state).collect()
-}
-
-fn policy_row(model: &IntervalMdp, state: StateId, choice: u32) -> Option<u32> {
-    model.choices().rows(state).nth(choice as usize)
 }
 
 fn action_name(model: &IntervalMdp, index: u64, row: Option<u32>, choice: u32) -> String {

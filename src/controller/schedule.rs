@@ -2,7 +2,7 @@
 
 use crate::abstraction::Abstraction;
 use crate::partition::CellId;
-use crate::solver::{Policy, row_of_choice};
+use crate::solver::Policy;
 
 /// A target that holds from some number of steps left upwards, until the next entry of the cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +28,7 @@ impl Schedule {
         for &state in &abstraction.state_of_cell {
             for &(steps_left, choice) in policy.changes(state) {
                 // States that merge cells have no choices, so every entry is of one cell.
-                if let Some(target) = row_of_choice(choices, state, choice) {
+                if let Some(target) = choices.row_of_choice(state, choice) {
                     schedule.entries.push(Entry { steps_left, target });
                 }
             }

@@ -74,6 +74,34 @@ impl Choices {
         self.ranges(state).iter().flat_map(|range| range.rows())
     }
 
+    /// The row of a state's choice, counted in its own choices from 0.
+    pub fn row_of_choice(&self, state: StateId, choice: u32) -> Option<RowId> {
+        let mut left = choice as usize;
+        for range in self.ranges(state) {
+            if left < range.len() {
+                return Some(range.first + left as RowId);
+            }
+            left -= range.len();
+        }
+        None
+    }
+
+    /// The rows, of `rows` in all, that some of the states can choose; ascending.
+    pub fn used_rows(&self, rows: usize, states: impl Iterator<Item = StateId>) -> Vec<RowId> {
+        // Ranges overlap heavily: a difference array, not a loop over choices.
+        let mut depth = vec![0i64; rows + 1];
+        for range in states.flat_map(|s| self.ranges(s)) {
+            depth[range.first as usize] += 1;
+            depth[range.last as usize + 1] -= 1;
+        }
+        let mut open = 0;
+        let used = |row: &RowId| {
+            open += depth[*row as usize];
+            open > 0
+        };
+        (0..rows as RowId).filter(used).collect()
+    }
+
     /// Whether the only choice of a state is to stay.
     pub fn is_absorbing(&self, state: StateId) -> bool {
         self.absorbing.contains(state as usize)

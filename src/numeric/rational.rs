@@ -10,22 +10,27 @@ pub type Rational = num_rational::BigRational;
 ///
 /// `0.1` gives `1/10`, not the dyadic number nearest to it. This is what a user who wrote `0.1` meant.
 pub fn from_decimal(x: f64) -> Option<Rational> {
-    if !x.is_finite() {
-        return None;
-    }
-    // The standard library's `{:e}` prints the shortest digits that round-trip.
-    let text = format!("{x:e}");
-    let (mantissa, exponent) = text.split_once('e')?;
-    let exponent: i32 = exponent.parse().ok()?;
-    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    let digits: BigInt = format!("{whole}{fraction}").parse().ok()?;
-    let power = exponent - fraction.len() as i32;
-    let ten = BigInt::from(10);
+    let (digits, power) = decimal_parts(x)?;
+    let (digits, ten) = (BigInt::from(digits), BigInt::from(10));
     Some(if power >= 0 {
         Rational::from_integer(digits * ten.pow(power.unsigned_abs()))
     } else {
         Rational::new(digits, ten.pow(power.unsigned_abs()))
     })
+}
+
+/// Integers `(d, e)` such that `d · 10ᵉ` is the shortest decimal that reads back as `x`; `None` unless `x` is finite.
+pub fn decimal_parts(x: f64) -> Option<(i64, i32)> {
+    if !x.is_finite() {
+        return None;
+    }
+    // The standard library's `{:e}` prints the shortest digits that round-trip, at most 17.
+    let text = format!("{x:e}");
+    let (mantissa, exponent) = text.split_once('e')?;
+    let exponent: i32 = exponent.parse().ok()?;
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits: i64 = format!("{whole}{fraction}").parse().ok()?;
+    Some((digits, exponent - fraction.len() as i32))
 }
 
 /// The exact value of a double; `None` unless it is finite.

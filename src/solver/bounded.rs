@@ -4,12 +4,12 @@
 
 use super::expectation::Side;
 use super::options::Control;
-use super::policy::{NO_CHOICE, first_choice, row_of_choice};
+use super::policy::{NO_CHOICE, first_choice};
 use super::query::{Optimum, Players};
 use super::range_optimum::RangeOptimum;
 use super::sweep::Sweep;
 use super::{Policy, Solution, SolverOptions, Status, ValueBounds};
-use crate::imdp::{IntervalMdp, RowId, StateId, StateSet};
+use crate::imdp::{IntervalMdp, StateId, StateSet};
 
 /// The value of `safe U<=steps goal`.
 pub(super) fn until(
@@ -68,22 +68,6 @@ pub(super) fn indicator(set: &StateSet) -> Vec<f64> {
     (0..set.len()).map(|s| if set.contains(s) { 1.0 } else { 0.0 }).collect()
 }
 
-/// The rows that some of the states can choose, ascending.
-pub(super) fn used_rows(model: &IntervalMdp, states: &[StateId]) -> Vec<RowId> {
-    // Ranges overlap heavily: a difference array, not a loop over choices.
-    let mut depth = vec![0i64; model.rows().len() + 1];
-    for range in states.iter().flat_map(|&s| model.choices().ranges(s)) {
-        depth[range.first as usize] += 1;
-        depth[range.last as usize + 1] -= 1;
-    }
-    let mut open = 0;
-    let used = |row: &RowId| {
-        open += depth[*row as usize];
-        open > 0
-    };
-    (0..model.rows().len() as RowId).filter(used).collect()
-}
-
 struct Iteration<'a> {
     model: &'a IntervalMdp,
     players: Players,
@@ -111,7 +95,7 @@ impl<'a> Iteration<'a> {
     ) -> Self {
         let mut table = RangeOptimum::new(players.policy, model.rows().len());
         table.prepare(model.choices(), &states);
-        let rows = used_rows(model, &states);
+        let rows = model.choices().used_rows(model.rows().len(), states.iter().copied());
         Self {
             model,
             players,
@@ -162,7 +146,8 @@ impl<'a> Iteration<'a> {
         for &s in &self.sweep.states {
             let best = table.best(choices.ranges(s));
             let now = &mut current[s as usize];
-            let keep = row_of_choice(choices, s, *now)
+            let keep = choices
+                .row_of_choice(s, *now)
                 .is_some_and(|row| !optimum.prefers(best, weights[row as usize]));
             if !keep && let Some(choice) = first_choice(choices, s, |row| weights[row as usize] == best) {
                 *now = choice;

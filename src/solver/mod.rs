@@ -35,7 +35,7 @@ mod unbounded;
 
 pub use answer::{Answer, AnswerError};
 pub use options::{SolverOptions, Status};
-pub use policy::{Policy, row_of_choice};
+pub use policy::Policy;
 pub use query::{Query, SolveError};
 pub use solution::{Solution, ValueBounds};
 

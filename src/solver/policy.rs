@@ -74,24 +74,12 @@ impl Policy {
 
     /// The row of the choice made in `state` after `elapsed` steps.
     pub fn row(&self, choices: &Choices, state: StateId, elapsed: u64) -> Option<RowId> {
-        row_of_choice(choices, state, self.choice(state, elapsed)?)
+        choices.row_of_choice(state, self.choice(state, elapsed)?)
     }
 }
 
 /// Stands for "no choice".
 pub(super) const NO_CHOICE: u32 = u32::MAX;
-
-/// The row of a state's choice, counted in the state's own choices; `None` if it has fewer.
-pub fn row_of_choice(choices: &Choices, state: StateId, choice: u32) -> Option<RowId> {
-    let mut left = choice as usize;
-    for range in choices.ranges(state) {
-        if left < range.len() {
-            return Some(range.first + left as RowId);
-        }
-        left -= range.len();
-    }
-    None
-}
 
 /// The first choice of a state whose row satisfies a condition.
 pub(super) fn first_choice(choices: &Choices, state: StateId, holds: impl Fn(RowId) -> bool) -> Option<u32> {

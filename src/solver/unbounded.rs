@@ -9,7 +9,7 @@ use super::component::{Component, Shared};
 use super::expectation::Side;
 use super::graph::{ChoiceTree, strong_components, zero_one};
 use super::options::Control;
-use super::policy::{NO_CHOICE, first_choice, row_of_choice};
+use super::policy::{NO_CHOICE, first_choice};
 use super::query::{Optimum, Players};
 use super::range_optimum::RangeOptimum;
 use super::sweep::Sweep;
@@ -182,7 +182,9 @@ impl Shared<'_> {
 
     /// Whether the present choice of a state attains the new lower bound.
     pub(super) fn keeps_choice(&self, state: StateId, value: f64) -> bool {
-        row_of_choice(self.model.choices(), state, self.choices[state as usize])
+        self.model
+            .choices()
+            .row_of_choice(state, self.choices[state as usize])
             .is_some_and(|row| self.lower_rows.values()[row as usize] >= value)
     }
 
