@@ -75,3 +75,4 @@ pub mod run_directory;
 pub mod solver;
 pub mod spec;
 pub mod statistics;
+pub mod verify;

@@ -4,6 +4,7 @@ use super::controller::{ControllerArguments, run as controller};
 use super::diff::{DiffArguments, run as diff};
 use super::simulate::{SimulateArguments, run as simulate};
 use super::solve::{SolveArguments, run as solve};
+use super::verify::{VerifyArguments, run as verify};
 use super::{CliError, use_threads};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -28,14 +29,16 @@ enum Command {
     Controller(ControllerArguments),
     /// Simulate the closed loop of a compiled model and compare with what is promised.
     Simulate(SimulateArguments),
+    /// Check a certificate of `solve --certificate` in exact arithmetic; exit code 1 if it is rejected.
+    Verify(VerifyArguments),
     /// Compare two run directories, models, results or reference files; exit code 1 on a difference.
     Diff(DiffArguments),
 }
 
 const AFTER_HELP: &str = "\
-Exit codes: 0 done (and every property true), 1 a property is false at an initial state, a comparison differs
-or a simulation contradicts the promise, 2 bad input or usage, 3 undecided (limit, interrupt, or the bounds straddle the
-threshold), 4 I/O or internal error (also an input outside U).";
+Exit codes: 0 done (and every property true), 1 a property is false at an initial state, a comparison differs,
+a certificate is rejected or a simulation contradicts the promise, 2 bad input or usage, 3 undecided (limit, interrupt,
+or the bounds straddle the threshold), 4 I/O or internal error (also an input outside U).";
 
 /// Runs the tool.
 ///
@@ -47,6 +50,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
         Command::Solve(arguments) => solve(arguments),
         Command::Controller(arguments) => controller(arguments),
         Command::Simulate(arguments) => simulate(arguments),
+        Command::Verify(arguments) => verify(arguments),
         Command::Diff(arguments) => diff(arguments),
     }
 }

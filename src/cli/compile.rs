@@ -1,7 +1,7 @@
 //! `dynabs-compile`: from a model file to PRISM files.
 
 use super::results::{PropertyResult, exit_code, table};
-use super::solve::{LimitArguments, answer};
+use super::solve::{LimitArguments, Wanted, answer};
 use super::summary::summary;
 use super::{Bars, CliError, print, use_threads};
 use crate::abstraction::compile;
@@ -150,7 +150,7 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
         let limits = LimitArguments::default();
         let solving = Instant::now();
         let (model, property) = (&abstraction.model, &abstraction.property);
-        results.push(answer(model, property, &limits, false, &bars)?.1);
+        results.push(answer(model, property, &limits, Wanted::default(), &bars)?.1);
         phases.push(("solving", solving.elapsed()));
     }
     report(arguments, &manifest, &phases, &results)?;

@@ -4,6 +4,7 @@ use super::CliError;
 use crate::imdp::{ActionNames, IntervalMdp, StateId};
 use crate::property::Verdict;
 use crate::solver::{Answer, Policy};
+use crate::verify::Certificate;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -64,6 +65,14 @@ pub(super) fn write_policy(path: &Path, model: &IntervalMdp, policy: &Policy) ->
         }
         Ok(())
     })
+}
+
+/// Writes a certificate.
+///
+/// # Errors
+/// [`CliError::Failure`] if writing fails.
+pub(super) fn write_certificate(path: &Path, certificate: &Certificate) -> Result<(), CliError> {
+    replace(path, |out| crate::verify::write(certificate, out))
 }
 
 /// Per state, the number of choices of the states before it.

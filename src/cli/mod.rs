@@ -18,6 +18,7 @@ pub mod solve;
 mod summary;
 mod threads;
 mod trajectories;
+pub mod verify;
 
 pub use error::{CliError, exit_with};
 pub use output::{print, thousands};

@@ -4,7 +4,8 @@ use super::{Bars, CliError};
 use crate::formats::{native, prism};
 use crate::imdp::IntervalMdp;
 use crate::progress::Progress;
-use crate::run_directory::{Manifest, NATIVE_MODEL};
+use crate::run_directory::{Manifest, NATIVE_MODEL, sha256_of_file};
+use crate::verify::ModelFile;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -14,6 +15,25 @@ pub(super) struct LoadedModel {
     pub(super) warnings: Vec<String>,
     /// The file of properties that belongs to it, if there is one.
     pub(super) properties: PathBuf,
+    /// The files it was read from.
+    files: Vec<PathBuf>,
+}
+
+impl LoadedModel {
+    /// What a certificate says about the files that the model was read from.
+    ///
+    /// # Errors
+    /// [`CliError::Failure`] if they cannot be read again.
+    pub(super) fn digests(&self) -> Result<Vec<ModelFile>, CliError> {
+        let digest = |path: &PathBuf| {
+            let kind = path.extension().unwrap_or_default().to_string_lossy().into_owned();
+            match sha256_of_file(path) {
+                Ok(sha256) => Ok(ModelFile { kind, sha256 }),
+                Err(error) => Err(CliError::Failure(format!("{}: {error}", path.display()))),
+            }
+        };
+        self.files.iter().map(digest).collect()
+    }
 }
 
 /// Loads a model: a directory's native file (or its `.tra` if `explicit`), or a `.tra` file.
@@ -86,7 +106,8 @@ fn load_native(path: &Path) -> Result<LoadedModel, CliError> {
         native::NativeError::Io { .. } => CliError::Failure(error.to_string()),
         _ => CliError::Input(error.to_string()),
     })?;
-    Ok(LoadedModel { model, warnings: vec![], properties: path.with_extension("props") })
+    let (properties, files) = (path.with_extension("props"), vec![path.to_owned()]);
+    Ok(LoadedModel { model, warnings: vec![], properties, files })
 }
 
 fn load_explicit(tra: &Path, bars: &Bars) -> Result<LoadedModel, CliError> {
@@ -103,5 +124,7 @@ fn load_explicit(tra: &Path, bars: &Bars) -> Result<LoadedModel, CliError> {
         _ => CliError::Input(error.to_string()),
     })?;
     let warnings = imported.warnings.iter().map(ToString::to_string).collect();
-    Ok(LoadedModel { model: imported.model, warnings, properties: tra.with_extension("props") })
+    let files = ["tra", "sta", "lab"].map(|extension| tra.with_extension(extension));
+    let files = files.into_iter().filter(|path| path.exists()).collect();
+    Ok(LoadedModel { model: imported.model, warnings, properties: tra.with_extension("props"), files })
 }

@@ -1,6 +1,6 @@
 //! `dynabs-check solve`: properties of a model.
 
-use super::exports::{write_policy, write_values};
+use super::exports::{write_certificate, write_policy, write_values};
 use super::model_source::load;
 use super::results::{PropertyResult, exit_code, table};
 use super::{Bars, CliError, print};
@@ -38,6 +38,10 @@ pub struct SolveArguments {
     /// Write the policy as `state=action` or `state,step=action` (for one property).
     #[arg(long, value_name = "FILE")]
     policy: Option<PathBuf>,
+
+    /// Write what is needed to check the result again with `verify` (for one property).
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
 
     #[command(flatten)]
     limits: LimitArguments,
@@ -82,10 +86,11 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     let loaded = load(&arguments.path, arguments.explicit, &bars)?;
     let reading = start.elapsed();
     let properties = properties(arguments, &loaded.properties)?;
-    if (arguments.values.is_some() || arguments.policy.is_some()) && properties.len() != 1 {
+    let outputs = [&arguments.values, &arguments.policy, &arguments.certificate];
+    if outputs.into_iter().any(Option::is_some) && properties.len() != 1 {
         let found = properties.len();
         return Err(CliError::Input(format!(
-            "--values, --policy: found {found} properties; expected one, chosen by -p"
+            "--values, --policy, --certificate: found {found} properties; expected one, chosen by -p"
         )));
     }
     if !arguments.quiet {
@@ -94,16 +99,20 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
         // If stderr is closed there is nobody to warn.
         let _ = io::stderr().write_all(warnings.as_bytes());
     }
-    let wants_policy = arguments.policy.is_some();
+    let wanted = Wanted { policy: arguments.policy.is_some(), evidence: arguments.certificate.is_some() };
     let mut results = Vec::with_capacity(properties.len());
     bars.catch_interrupts()?;
     for property in &properties {
-        let (answer, result) = answer(&loaded.model, property, &arguments.limits, wants_policy, &bars)?;
+        let (answer, result) = answer(&loaded.model, property, &arguments.limits, wanted, &bars)?;
         if let Some(path) = &arguments.values {
             write_values(path, &loaded.model, &answer)?;
         }
         if let (Some(path), Some(policy)) = (&arguments.policy, &answer.solution.policy) {
             write_policy(path, &loaded.model, policy)?;
+        }
+        if let Some(path) = &arguments.certificate {
+            let certificate = answer.certificate(property, loaded.digests()?);
+            certificate.map_or(Ok(()), |certificate| write_certificate(path, &certificate))?;
         }
         results.push(result);
     }
@@ -117,12 +126,19 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     Ok(exit_code(&results))
 }
 
+/// What is wanted of an answer besides the values.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Wanted {
+    pub(super) policy: bool,
+    pub(super) evidence: bool,
+}
+
 /// Answers one property, with the current gap on display.
 pub(super) fn answer(
     model: &IntervalMdp,
     property: &Property,
     limits: &LimitArguments,
-    policy: bool,
+    wanted: Wanted,
     bars: &Bars,
 ) -> Result<(Answer, PropertyResult), CliError> {
     let start = Instant::now();
@@ -134,7 +150,8 @@ pub(super) fn answer(
         time_limit: limits.time_limit.map(Duration::from_secs_f64),
         interrupt: Some(bars.interrupt()),
         progress: Some(&progress),
-        policy,
+        policy: wanted.policy,
+        evidence: wanted.evidence,
     };
     let answer = Answer::new(model, property, &options);
     bars.finish();

@@ -1,7 +1,9 @@
 //! SHA-256 of what is written, while it is written.
 
 use sha2::{Digest, Sha256};
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, BufReader, Write};
+use std::path::Path;
 
 /// From this size on, hashing (about as slow as writing) gets a thread of its own.
 const LARGE: usize = 1 << 18;
@@ -50,6 +52,16 @@ impl<W: Write> Write for HashingWriter<W> {
 /// The SHA-256 of some bytes, in hexadecimal.
 pub fn sha256_hex(bytes: &[u8]) -> String {
     to_hex(&Sha256::digest(bytes))
+}
+
+/// The SHA-256 of a file, in hexadecimal.
+///
+/// # Errors
+/// What the system says when the file cannot be read.
+pub fn sha256_of_file(path: &Path) -> io::Result<String> {
+    let mut writer = HashingWriter::new(io::sink());
+    io::copy(&mut BufReader::with_capacity(1 << 16, File::open(path)?), &mut writer)?;
+    Ok(writer.finish().2)
 }
 
 fn to_hex(digest: &[u8]) -> String {

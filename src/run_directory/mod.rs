@@ -6,7 +6,7 @@ mod open;
 mod staging;
 mod write;
 
-pub use hashing::{HashingWriter, sha256_hex};
+pub use hashing::{HashingWriter, sha256_hex, sha256_of_file};
 pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile, ProbabilityReport};
 pub use open::{OpenError, Run};
 pub use staging::{RunDirectoryError, Staging};

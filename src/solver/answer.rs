@@ -3,6 +3,7 @@
 use super::{Query as SolverQuery, Solution, SolveError, SolverOptions, ValueBounds, solve};
 use crate::imdp::{IntervalMdp, StateId};
 use crate::property::{Objective, Property, PropertyError, Query, Verdict};
+use crate::verify::{Certificate, ModelFile};
 
 /// What a property's question came to.
 #[derive(Clone, Debug)]
@@ -55,6 +56,15 @@ impl Answer {
         let verdicts: Option<Vec<Verdict>> = initial().map(|s| answer.verdict_of(s as StateId)).collect();
         answer.verdict = verdicts.map(|verdicts| all(&verdicts));
         Ok(answer)
+    }
+
+    /// The certificate of this answer to `property`, for a model read from `files`.
+    ///
+    /// `None` unless the options asked for evidence.
+    pub fn certificate(&self, property: &Property, files: Vec<ModelFile>) -> Option<Certificate> {
+        let evidence = self.solution.evidence.clone()?;
+        let (property, states) = (property.clone(), self.values.lower.len() as u64);
+        Some(Certificate { property, files, states, lower: self.lower, upper: self.upper, evidence })
     }
 
     /// Whether the threshold holds in all initial states; `None` if undecided or if there is no threshold.

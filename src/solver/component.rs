@@ -230,6 +230,10 @@ impl<'s, 'a> Component<'s, 'a> {
     fn accept(&mut self, old: &[f64]) {
         let shared = &mut *self.shared;
         for (i, &s) in self.sweep.states.iter().enumerate() {
+            // The table still holds the rows at `U`: what the policy chooses here attains `T(U)`.
+            if self.results[i] < old[i] && shared.minimises_for_policy() {
+                shared.choose(s);
+            }
             shared.upper[s as usize] = self.results[i].min(old[i]).max(shared.lower[s as usize]);
         }
     }

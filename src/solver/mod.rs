@@ -21,6 +21,7 @@
 mod answer;
 mod bounded;
 mod component;
+mod evidence;
 mod expectation;
 mod extrapolate;
 mod graph;
@@ -59,11 +60,11 @@ pub fn solve(
         return Err(SolveError::Epsilon { epsilon });
     }
     let players = resolution.into();
-    Ok(match *query {
+    match *query {
         Query::Next { goal } => bounded::next(model, goal, players, options),
         Query::Until { safe, goal, steps: Some(steps) } => {
             bounded::until(model, (safe, goal, steps), players, options)
         }
         Query::Until { safe, goal, steps: None } => unbounded::until(model, safe, goal, players, options),
-    })
+    }
 }

@@ -20,6 +20,8 @@ pub struct SolverOptions<'a> {
     pub progress: Option<&'a (dyn Fn(u64, f64) + Sync)>,
     /// Whether a policy is wanted.
     pub policy: bool,
+    /// Whether what a certificate needs is wanted, which includes the policy.
+    pub evidence: bool,
 }
 
 impl Default for SolverOptions<'_> {
@@ -31,6 +33,7 @@ impl Default for SolverOptions<'_> {
             interrupt: None,
             progress: None,
             policy: false,
+            evidence: false,
         }
     }
 }

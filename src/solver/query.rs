@@ -1,6 +1,6 @@
 //! What is asked of the solver.
 
-use crate::imdp::{IntervalMdp, StateSet};
+use crate::imdp::{IntervalMdp, MemoryError, StateSet};
 use crate::property::{QueryKind, Resolution};
 
 /// An event whose probability is wanted, for every initial state at once.
@@ -50,6 +50,9 @@ pub enum SolveError {
         /// What was given.
         epsilon: f64,
     },
+    /// What a certificate needs does not fit into memory.
+    #[error("{0}; solve without a certificate, or with fewer steps")]
+    Memory(#[from] MemoryError),
 }
 
 impl Query<'_> {

@@ -2,6 +2,7 @@
 
 use super::{Policy, Status};
 use crate::numeric::{one_minus_down, one_minus_up};
+use crate::verify::Evidence;
 
 /// The answer to a query.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +15,8 @@ pub struct Solution {
     pub iterations: u64,
     /// What the policy does, if that was asked.
     pub policy: Option<Policy>,
+    /// What proves the values, if that was asked.
+    pub evidence: Option<Evidence>,
 }
 
 /// Bounds on the exact value of every state: `0 ≤ lower ≤ value ≤ upper ≤ 1`.

@@ -6,15 +6,17 @@
 
 use super::bounded::indicator;
 use super::component::{Component, Shared};
+use super::evidence::unlike;
 use super::expectation::Side;
-use super::graph::{ChoiceTree, strong_components, zero_one};
+use super::graph::{ChoiceTree, ranks, strong_components, zero_one};
 use super::options::Control;
 use super::policy::{NO_CHOICE, first_choice};
 use super::query::{Optimum, Players};
 use super::range_optimum::RangeOptimum;
 use super::sweep::Sweep;
-use super::{Policy, Solution, SolverOptions, Status, ValueBounds};
-use crate::imdp::{IntervalMdp, RowId, StateId, StateSet};
+use super::{Policy, Solution, SolveError, SolverOptions, Status, ValueBounds};
+use crate::imdp::{IntervalMdp, RowId, StateId, StateSet, require_memory};
+use crate::verify::{Evidence, Inductive};
 
 /// The value of `safe U goal`.
 pub(super) fn until(
@@ -23,7 +25,7 @@ pub(super) fn until(
     goal: &StateSet,
     players: Players,
     options: &SolverOptions<'_>,
-) -> Solution {
+) -> Result<Solution, SolveError> {
     let states = model.num_states();
     let rows = model.rows().len();
     let mut moving = StateSet::with_capacity(states);
@@ -45,7 +47,7 @@ pub(super) fn until(
         lower_rows: table.clone(),
         upper_rows: table,
         choices: known.choices.clone(),
-        wants_policy: options.policy,
+        wants_policy: options.policy || options.evidence,
         own_rows: StateSet::with_capacity(rows),
     };
     // Every cyclic part may add its share to the distance of the bounds of what it depends on.
@@ -71,13 +73,18 @@ pub(super) fn until(
             break;
         }
     }
-    let policy = options.policy.then(|| shared.policy(&moving, &open));
+    let choices = shared.policy(&moving);
+    let evidence = match options.evidence {
+        true => Some(Evidence::Inductive(shared.evidence(&moving, &choices)?)),
+        false => None,
+    };
+    let policy = shared.wants_policy.then(|| Policy::stationary(&choices));
     let values = ValueBounds { lower: shared.lower, upper: shared.upper };
     // A component may have met its limit without spoiling the whole, and the other way round.
     if status == Status::Converged && values.gap() > options.epsilon {
         status = Status::PrecisionLimit;
     }
-    Solution { values, status, iterations: control.iterations, policy }
+    Ok(Solution { values, status, iterations: control.iterations, policy, evidence })
 }
 
 /// A strong component of the graph of states and rows.
@@ -170,7 +177,7 @@ impl Shared<'_> {
         let s = state as usize;
         self.lower[s] = self.lower_rows.best(ranges).max(self.lower[s]);
         self.upper[s] = self.upper_rows.best(ranges).min(self.upper[s]).max(self.lower[s]);
-        if self.maximises_for_policy() {
+        if self.wants_policy {
             self.choose(state);
         }
     }
@@ -200,17 +207,31 @@ impl Shared<'_> {
         self.choices[state as usize] = choice.unwrap_or(NO_CHOICE);
     }
 
-    /// The choices made on the way; a minimising policy is read off the final upper bounds `U ≥ T_π(U)`.
-    fn policy(&mut self, moving: &StateSet, open: &impl Fn(usize) -> bool) -> Policy {
-        if self.players.policy == Optimum::Min {
-            for s in moving.ones().filter(|&s| open(s)) {
-                self.choose(s as StateId);
-            }
-        }
-        let choices = moving.ones().map(|s| (s, self.choices[s]));
+    /// Whether choices must be noted when upper bounds improve.
+    pub(super) fn minimises_for_policy(&self) -> bool {
+        self.wants_policy && self.players.policy == Optimum::Min
+    }
+
+    /// The choices made on the way: `L ≤ T_σ(L)` if the policy maximises, else `U ≥ T_σ(U)`.
+    fn policy(&self, moving: &StateSet) -> Vec<u32> {
         let mut all = vec![NO_CHOICE; self.choices.len()];
         // Where nothing can be gained or lost, the first choice is as good as any.
+        let choices = moving.ones().map(|s| (s, self.choices[s]));
         choices.for_each(|(s, choice)| all[s] = if choice == NO_CHOICE { 0 } else { choice });
-        Policy::stationary(&all)
+        all
+    }
+
+    /// What proves the bounds.
+    fn evidence(&self, moving: &StateSet, choices: &[u32]) -> Result<Inductive, SolveError> {
+        let rows = self.model.rows();
+        // Rows as lists, and as lists by state; ranks.
+        let bytes = 40 * rows.num_entries() + 64 * (rows.len() + choices.len());
+        require_memory("the certificate", bytes as u64)?;
+        Ok(Inductive {
+            choices: unlike(choices, moving.ones(), NO_CHOICE),
+            lower: unlike(&self.lower, moving.ones(), 0.0),
+            upper: unlike(&self.upper, moving.ones(), 1.0),
+            ranks: ranks(self.model, moving, self.players, &self.lower, choices),
+        })
     }
 }

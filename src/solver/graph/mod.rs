@@ -3,10 +3,12 @@
 mod choice_tree;
 mod decide;
 mod end_components;
+mod ranking;
 mod tarjan;
 mod zero_one;
 
 pub(super) use choice_tree::ChoiceTree;
 pub(super) use end_components::{Candidates, can_stay, end_components};
+pub(super) use ranking::ranks;
 pub(super) use tarjan::strong_components;
 pub(super) use zero_one::{stays, zero_one};

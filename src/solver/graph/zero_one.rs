@@ -13,7 +13,7 @@ use super::super::policy::{NO_CHOICE, first_choice};
 use super::super::query::{Optimum, Players};
 use super::choice_tree::ChoiceTree;
 use super::decide::{compare_with_one, lower_covers_one, margin, upper_covers_one};
-use crate::imdp::{IntervalMdp, Row, RowId, StateId, StateSet};
+use crate::imdp::{IntervalMdp, Row, RowId, Rows, StateId, StateSet};
 use std::cmp::Ordering;
 
 /// The states with the extreme values.
@@ -35,7 +35,7 @@ pub(in crate::solver) fn zero_one(
 ) -> ZeroOne {
     let rows = model.rows().len();
     let tree = ChoiceTree::new(rows, model.choices(), |s| moving.contains(s as usize));
-    let analysis = Analysis { model, goal, players, tree: &tree, predecessors: Predecessors::new(model) };
+    let analysis = Analysis::new(model.rows(), goal, players, &tree);
     let mut allowed = StateSet::with_capacity(rows);
     allowed.insert_range(..);
     let (positive, made_it) = analysis.attract(&allowed);
@@ -81,27 +81,32 @@ pub(in crate::solver) fn stays(
     }
 }
 
-struct Analysis<'a> {
-    model: &'a IntervalMdp,
+/// What is needed to find the states from which a set is met with positive probability.
+pub(super) struct Analysis<'a> {
+    rows: &'a Rows,
     goal: &'a StateSet,
     players: Players,
     tree: &'a ChoiceTree,
     predecessors: Predecessors,
 }
 
-impl Analysis<'_> {
+impl<'a> Analysis<'a> {
+    pub fn new(rows: &'a Rows, goal: &'a StateSet, players: Players, tree: &'a ChoiceTree) -> Self {
+        Self { rows, goal, players, tree, predecessors: Predecessors::new(rows, goal.len()) }
+    }
+
     /// `μY. goal ∪ {s : Q_a (allowed(a) ∧ Q_p p(Y) > 0)}` and the rows that satisfy the condition.
     fn attract(&self, allowed: &StateSet) -> (StateSet, StateSet) {
         self.attract_with(allowed, |_, _| {})
     }
 
     /// The same; `joined(s, a)` is told by which row a state was the first time found to belong to `Y`.
-    fn attract_with(
+    pub fn attract_with(
         &self,
         allowed: &StateSet,
         mut joined: impl FnMut(StateId, RowId),
     ) -> (StateSet, StateSet) {
-        let rows = self.model.rows();
+        let rows = self.rows;
         let (mut reached, mut done) = (self.goal.clone(), StateSet::with_capacity(rows.len()));
         let mut collector = self.tree.collect(self.players.policy);
         // Running sums of the bounds outside Y: upper ones limit what nature can keep away from Y, lower
@@ -163,16 +168,16 @@ struct Predecessors {
 }
 
 impl Predecessors {
-    fn new(model: &IntervalMdp) -> Self {
-        let mut starts = vec![0; model.num_states() + 1];
-        for row in model.rows().iter() {
+    fn new(all: &Rows, states: usize) -> Self {
+        let mut starts = vec![0; states + 1];
+        for row in all.iter() {
             row.successors.iter().for_each(|&s| starts[s as usize + 1] += 1);
         }
-        for state in 0..model.num_states() {
+        for state in 0..states {
             starts[state + 1] += starts[state];
         }
-        let (mut next, mut rows) = (starts.clone(), vec![0; model.rows().num_entries()]);
-        for (id, row) in (0..).zip(model.rows().iter()) {
+        let (mut next, mut rows) = (starts.clone(), vec![0; all.num_entries()]);
+        for (id, row) in (0..).zip(all.iter()) {
             for &s in row.successors {
                 rows[next[s as usize]] = id;
                 next[s as usize] += 1;
