@@ -123,6 +123,17 @@ impl Threshold {
     }
 }
 
+impl Verdict {
+    /// What is known about a comparison in all of several states.
+    pub fn in_all(verdicts: impl IntoIterator<Item = Self>) -> Self {
+        verdicts.into_iter().fold(Self::Holds, |all, one| match (all, one) {
+            (Self::Fails, _) | (_, Self::Fails) => Self::Fails,
+            (Self::Unknown, _) | (_, Self::Unknown) => Self::Unknown,
+            (Self::Holds, Self::Holds) => Self::Holds,
+        })
+    }
+}
+
 impl ThresholdComparison {
     /// Whether a large value satisfies the comparison: `>=` and `>`.
     pub fn is_lower_bound(self) -> bool {

@@ -54,7 +54,7 @@ impl Answer {
         let upper = initial().map(|s| values.upper[s]).fold(0.0, f64::max);
         let mut answer = Self { objective, query, solution, values, lower, upper, verdict: None };
         let verdicts: Option<Vec<Verdict>> = initial().map(|s| answer.verdict_of(s as StateId)).collect();
-        answer.verdict = verdicts.map(|verdicts| all(&verdicts));
+        answer.verdict = verdicts.map(Verdict::in_all);
         Ok(answer)
     }
 
@@ -80,16 +80,5 @@ impl Answer {
     pub fn verdict_of(&self, state: StateId) -> Option<Verdict> {
         let bounds = (self.values.lower[state as usize], self.values.upper[state as usize]);
         self.objective.threshold.as_ref().map(|threshold| threshold.decide(bounds.0, bounds.1))
-    }
-}
-
-/// Whether something holds everywhere.
-fn all(verdicts: &[Verdict]) -> Verdict {
-    if verdicts.contains(&Verdict::Fails) {
-        Verdict::Fails
-    } else if verdicts.contains(&Verdict::Unknown) {
-        Verdict::Unknown
-    } else {
-        Verdict::Holds
     }
 }

@@ -16,7 +16,7 @@ pub struct Proved {
     pub lower: f64,
     /// The value is at most this in every initial state.
     pub upper: f64,
-    /// For thresholds: what follows from these bounds.
+    /// For thresholds: whether they hold in all initial states.
     pub verdict: Option<Verdict>,
     /// The number of states.
     pub states: u64,
@@ -61,8 +61,7 @@ pub fn check(
         }
     };
     let Certificate { lower, upper, .. } = *certificate;
-    proof.check_claims(lower, upper)?;
-    let verdict = task.objective.threshold.as_ref().map(|threshold| threshold.decide(lower, upper));
+    let verdict = proof.check_claims(lower, upper)?;
     let evaluated = proof.lower.evaluated + proof.upper.evaluated;
     Ok(Proved { lower, upper, verdict, states: found, steps, rows: evaluated })
 }
@@ -158,7 +157,9 @@ impl Proof<'_> {
         Ok(())
     }
 
-    fn check_claims(&self, lower: f64, upper: f64) -> Result<(), Rejection> {
+    /// Checks the claims about the initial states; for thresholds, returns what follows.
+    fn check_claims(&self, lower: f64, upper: f64) -> Result<Option<Verdict>, Rejection> {
+        let mut verdicts = vec![];
         for s in self.rows.model.initial().ones() {
             let (mut low, mut high) = (self.lower.values[s], self.upper.values[s]);
             if self.task.complement {
@@ -171,7 +172,8 @@ impl Proof<'_> {
             if !Side::Upper.follows(upper, high) {
                 return Err(Rejection::Claim { side: Side::Upper, claimed: upper, proved: high, state });
             }
+            verdicts.extend(self.task.objective.threshold.as_ref().map(|t| t.decide(low, high)));
         }
-        Ok(())
+        Ok(self.task.objective.threshold.as_ref().map(|_| Verdict::in_all(verdicts)))
     }
 }

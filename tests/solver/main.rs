@@ -2,9 +2,12 @@
 #![allow(clippy::unwrap_used)] // helpers of tests are tests
 
 mod cases;
+#[path = "../common/certified.rs"]
+mod certified;
 mod models;
 mod reference;
 
+use certified::certified;
 use dynabs::imdp::{IntervalMdp, StateSet};
 use dynabs::numeric::from_dyadic;
 use dynabs::property::Resolution;
@@ -20,6 +23,7 @@ const RESOLUTIONS: [(Resolution, (bool, bool)); 4] = [
     (Resolution::Pminmax, (false, true)),
 ];
 
+/// Solves and has the result certified.
 fn until(
     model: &IntervalMdp,
     safe: &StateSet,
@@ -27,8 +31,24 @@ fn until(
     steps: Option<u64>,
     resolution: Resolution,
 ) -> Solution {
-    let options = SolverOptions { policy: true, max_iterations: 2_000_000, ..Default::default() };
-    solve(model, &Query::Until { safe, goal, steps }, resolution, &options).unwrap()
+    let steps = steps.map_or_else(String::new, |steps| format!("<={steps}"));
+    let property = format!("{resolution}=? [ \"safe\" U{steps} \"goal\" ]").parse().unwrap();
+    certified(&models::labelled(model, safe, goal), &property, &options()).0.solution
+}
+
+/// Solves without a certificate.
+fn until_uncertified(
+    model: &IntervalMdp,
+    safe: &StateSet,
+    goal: &StateSet,
+    steps: Option<u64>,
+    resolution: Resolution,
+) -> Solution {
+    solve(model, &Query::Until { safe, goal, steps }, resolution, &options()).unwrap()
+}
+
+fn options() -> SolverOptions<'static> {
+    SolverOptions { policy: true, max_iterations: 2_000_000, ..Default::default() }
 }
 
 fn big(x: Exact) -> BigRational {
@@ -63,7 +83,8 @@ proptest! {
             prop_assert_eq!(solution.status, Status::HorizonReached);
             prop_assert!(solution.values.gap() <= 1e-12);
             let exact = reference::bounded(&model, &safe, &goal, 1, maxima, true);
-            let next = solve(&model, &Query::Next { goal: &goal }, resolution, &SolverOptions::default()).unwrap();
+            let property = format!("{resolution}=? [ X \"goal\" ]").parse().unwrap();
+            let next = certified(&models::labelled(&model, &safe, &goal), &property, &options()).0;
             assert_bracketed(&next.values, &exact, &format!("X {resolution}"));
             prop_assert!(next.values.gap() <= 1e-12);
         }

@@ -34,6 +34,23 @@ pub fn model(rows: &[Entries], states: &[Option<Vec<(u32, u32)>>]) -> IntervalMd
     .unwrap()
 }
 
+/// The same model with the sets as its labels `safe` and `goal`.
+pub fn labelled(model: &IntervalMdp, safe: &StateSet, goal: &StateSet) -> IntervalMdp {
+    let mut labels = Labels::default();
+    labels.insert("safe", safe.clone());
+    labels.insert("goal", goal.clone());
+    IntervalMdp::new(Parts {
+        kind: model.kind(),
+        rows: model.rows().clone(),
+        choices: model.choices().clone(),
+        actions: model.actions().clone(),
+        initial: model.initial().clone(),
+        labels,
+        variables: model.variables().clone(),
+    })
+    .unwrap()
+}
+
 pub fn set(states: usize, members: &[usize]) -> StateSet {
     let mut set = StateSet::with_capacity(states);
     members.iter().for_each(|&s| set.insert(s));

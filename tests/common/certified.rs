@@ -1,0 +1,29 @@
+//! Solving with a certificate that is written, read and accepted.
+
+use dynabs::imdp::IntervalMdp;
+use dynabs::property::Property;
+use dynabs::solver::{Answer, SolverOptions};
+use dynabs::verify::{self, Certificate, ModelFile, check};
+
+/// Any digest: the model is in memory.
+pub fn files() -> Vec<ModelFile> {
+    vec![ModelFile { kind: "dynabs".into(), sha256: "0".repeat(64) }]
+}
+
+/// The answer and its certificate, which has been through a file and was accepted.
+pub fn certified(
+    model: &IntervalMdp,
+    property: &Property,
+    options: &SolverOptions<'_>,
+) -> (Answer, Certificate) {
+    let answer = Answer::new(model, property, &SolverOptions { evidence: true, ..*options }).unwrap();
+    let certificate = answer.certificate(property, files()).unwrap();
+    let mut bytes = vec![];
+    verify::write(&certificate, &mut bytes).unwrap();
+    assert_eq!(verify::read(&bytes).unwrap(), certificate, "{property}");
+    let proved = check(&certificate, model, &files());
+    let proved = proved.unwrap_or_else(|rejection| panic!("{property}: {rejection}\n{certificate:?}"));
+    assert_eq!((proved.lower, proved.upper), (answer.lower, answer.upper), "{property}");
+    assert_eq!(proved.verdict, answer.verdict, "{property}");
+    (answer, certificate)
+}
