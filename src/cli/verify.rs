@@ -61,11 +61,11 @@ pub fn run(arguments: &VerifyArguments) -> Result<ExitCode, CliError> {
 fn summary(certificate: &Certificate, outcome: &Result<Proved, Rejection>, time: Duration) -> String {
     let property = &certificate.property;
     match outcome {
-        Err(rejection) => format!("{property}\n  rejected: {rejection}\n"),
+        Err(rejection) => format!("{property}\n  rejected   {rejection}\n"),
         Ok(proved) => format!(
-            "{property}\n  accepted: {}value in [{:?}, {:?}] at the initial state   {} states, {} steps, {} rows \
-             checked, {time:.1?}\n",
-            proved.verdict.map_or_else(String::new, |verdict| format!("{}, ", word(verdict))),
+            "{property}\n  accepted   {}value in [{:?}, {:?}] at the initial state   {} states, steps: {}, rows: {}, \
+             {time:.1?}\n",
+            proved.verdict.map_or_else(String::new, |verdict| format!("{}   ", word(verdict))),
             proved.lower,
             proved.upper,
             thousands(proved.states),

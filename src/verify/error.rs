@@ -146,7 +146,7 @@ pub enum Rejection {
         /// The row.
         row: RowId,
         /// The least rank that the row would justify.
-        needed: u32,
+        needed: u64,
     },
     /// A claim about the initial states goes beyond what was proved.
     #[error(

@@ -97,7 +97,7 @@ impl ExactRow {
     /// The least `k` such that every distribution gives successors of a rank below `k` positive probability.
     ///
     /// That is `max(Σ_{rank<k} l, 1 − Σ_{rank≥k} u) > 0`.
-    pub fn certain_rank(&self, successors: &[u32], rank: impl Fn(u32) -> u32) -> u32 {
+    pub fn certain_rank(&self, successors: &[u32], rank: impl Fn(u32) -> u32) -> u64 {
         match self {
             Self::Small(row) => row.certain_rank(successors, rank),
             Self::Big(row) => row.certain_rank(successors, rank),
@@ -170,7 +170,7 @@ impl<M: Mass> Numerators<M> {
         support
     }
 
-    fn certain_rank(&self, successors: &[u32], rank: impl Fn(u32) -> u32) -> u32 {
+    fn certain_rank(&self, successors: &[u32], rank: impl Fn(u32) -> u32) -> u64 {
         let mut order: Vec<(u32, usize)> = successors.iter().zip(0..).map(|(&s, i)| (rank(s), i)).collect();
         order.sort_unstable();
         // What can be kept away from the ranks seen so far.
@@ -185,10 +185,10 @@ impl<M: Mass> Numerators<M> {
                 above -= &self.room[i];
             }
             if equal.iter().any(|&(_, i)| !self.lower[i].is_zero()) || above < self.scale {
-                return equal[0].0.saturating_add(1);
+                return u64::from(equal[0].0) + 1;
             }
         }
-        u32::MAX
+        u64::MAX
     }
 }
 

@@ -39,16 +39,16 @@ pub(super) fn check_ranks(
             Nature::Max => {
                 let support = exact.maximal_support(successors, lower);
                 let met = successors.iter().zip(support).filter(|(_, possible)| *possible);
-                met.map(|(&s, _)| rank(s)).min().map_or(u32::MAX, |least| least.saturating_add(1))
+                met.map(|(&s, _)| u64::from(rank(s)) + 1).min().unwrap_or(u64::MAX)
             }
         })
     };
-    let found: Vec<u32> = used.par_iter().map(needed_by).collect::<Result<_, Rejection>>()?;
-    let mut needed = vec![u32::MAX; rows.model.rows().len()];
+    let found: Vec<u64> = used.par_iter().map(needed_by).collect::<Result<_, Rejection>>()?;
+    let mut needed = vec![u64::MAX; rows.model.rows().len()];
     used.iter().zip(found).for_each(|(&row, least)| needed[row as usize] = least);
     for state in states() {
         let rank = rank(state);
-        let refutes = |row: &RowId| rank < needed[*row as usize];
+        let refutes = |row: &RowId| u64::from(rank) < needed[*row as usize];
         let refuted = if task.policy_maximises {
             chosen(state).filter(refutes)
         } else {

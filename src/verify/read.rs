@@ -5,7 +5,7 @@ use super::{CertificateError, FIRST_LINE};
 use crate::imdp::{StateId, require_memory};
 use sha2::{Digest, Sha256};
 use std::path::Path;
-use std::str::{FromStr, SplitAsciiWhitespace};
+use std::str::FromStr;
 
 /// Reads a certificate from a file.
 ///
@@ -53,21 +53,19 @@ struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     fn certificate(&mut self) -> Result<Certificate, CertificateError> {
-        let text = self.take("property").ok_or_else(|| self.broken("`property` and a property"))?;
-        let property = text.parse().map_err(|error| {
-            self.at -= 1;
-            self.broken(format!("a property ({error})"))
-        })?;
+        let property = self.item("property", "a property that can be read", |text| text.parse().ok())?;
         let mut files = vec![];
-        while let Some(text) = self.take("model") {
+        while let Some(text) = self.peek("model") {
             let (kind, sha256) = text.split_once(' ').unwrap_or((text, ""));
             files.push(ModelFile { kind: kind.to_owned(), sha256: sha256.to_owned() });
+            self.at += 1;
         }
-        let states = self.take("states").and_then(|text| text.parse().ok());
-        let states = states.ok_or_else(|| self.broken("`states` and their number"))?;
-        let claim = self.take("claim").and_then(|text| text.split_once(' '));
-        let claim = claim.and_then(|(lower, upper)| Some((probability(lower)?, probability(upper)?)));
-        let (lower, upper) = claim.ok_or_else(|| self.broken("`claim` and two probabilities"))?;
+        let states = self.item("states", "their number", number)?;
+        let claim = |text: &str| {
+            let (lower, upper) = text.split_once(' ')?;
+            Some((probability(lower)?, probability(upper)?))
+        };
+        let (lower, upper) = self.item("claim", "two probabilities", claim)?;
         let evidence = self.evidence()?;
         if self.at < self.rest.len() {
             return Err(self.broken("the end"));
@@ -76,7 +74,8 @@ impl<'a> Lines<'a> {
     }
 
     fn evidence(&mut self) -> Result<Evidence, CertificateError> {
-        if self.take("inductive").is_some() {
+        if self.peek("inductive").is_some() {
+            self.at += 1;
             return Ok(Evidence::Inductive(Inductive {
                 choices: self.list("choices", number)?,
                 lower: self.list("lower", probability)?,
@@ -85,11 +84,9 @@ impl<'a> Lines<'a> {
             }));
         }
         let mut steps = vec![];
-        while let Some(text) = self.take("step") {
-            if text.parse() != Ok(steps.len() + 1) {
-                self.at -= 1;
-                return Err(self.broken(format!("`step {}`", steps.len() + 1)));
-            }
+        while self.peek("step").is_some() {
+            let next = (steps.len() + 1).to_string();
+            self.item("step", &next, |text| (text == next).then_some(()))?;
             steps.push(Step {
                 choices: self.list("choices", number)?,
                 lower: self.list("lower", probability)?,
@@ -99,38 +96,43 @@ impl<'a> Lines<'a> {
         Ok(Evidence::Steps(steps))
     }
 
-    /// The items of the line with this name, if it comes next.
+    /// The pairs of the line with this name, if it comes next.
     fn list<T>(
         &mut self,
         name: &str,
         item: impl Fn(&str) -> Option<T>,
     ) -> Result<Vec<(StateId, T)>, CertificateError> {
-        let Some(text) = self.take(name) else { return Ok(vec![]) };
-        let mut words = text.split_ascii_whitespace();
-        let pair =
-            |words: &mut SplitAsciiWhitespace<'_>| Some((number(words.next()?)?, item(words.next()?)?));
-        let mut list = Vec::with_capacity(text.len() / 4);
-        while words.clone().next().is_some() {
-            match pair(&mut words) {
-                Some(pair) => list.push(pair),
-                None => {
-                    self.at -= 1;
-                    return Err(
-                        self.broken(format!("`{name}` and pairs of a state and a number in its range"))
-                    );
-                }
-            }
+        if self.peek(name).is_none() {
+            return Ok(vec![]);
         }
-        list.shrink_to_fit();
-        Ok(list)
+        self.item(name, "pairs of a state and a number in its range", |text| {
+            let mut words = text.split_ascii_whitespace();
+            let mut list = Vec::with_capacity(text.len() / 4);
+            while let Some(state) = words.next() {
+                list.push((number(state)?, item(words.next()?)?));
+            }
+            list.shrink_to_fit();
+            Some(list)
+        })
+    }
+
+    /// What follows this word in the next line, made something of.
+    fn item<T>(
+        &mut self,
+        name: &str,
+        content: &str,
+        make: impl FnOnce(&str) -> Option<T>,
+    ) -> Result<T, CertificateError> {
+        let item = self.peek(name).and_then(make);
+        let item = item.ok_or_else(|| self.broken(format!("`{name}` and {content}")))?;
+        self.at += 1;
+        Ok(item)
     }
 
     /// The rest of the next line, if it starts with this word.
-    fn take(&mut self, word: &str) -> Option<&'a str> {
+    fn peek(&self, word: &str) -> Option<&'a str> {
         let rest = self.rest.get(self.at)?.strip_prefix(word)?;
-        let rest = if rest.is_empty() { rest } else { rest.strip_prefix(' ')? };
-        self.at += 1;
-        Some(rest)
+        if rest.is_empty() { Some(rest) } else { rest.strip_prefix(' ') }
     }
 
     fn broken(&self, expected: impl Into<String>) -> CertificateError {

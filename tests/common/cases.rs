@@ -4,6 +4,7 @@
 //! the bounds as PRISM writes them. `values` gives for a path formula and each operator the exact values of
 //! all states, `verdicts` whether a property holds in all initial states. `fragile` cases change their
 //! values when lower bounds of 0 are raised to something positive.
+#![allow(dead_code)]
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
