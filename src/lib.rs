@@ -21,6 +21,7 @@
 //! | cells, targets and intervals meet | [`abstraction`] | an [`IntervalMdp`](imdp::IntervalMdp) with shared rows, and a property |
 //! | it is written for others | [`formats`], [`run_directory`] | PRISM's explicit files, a manifest |
 //! | it is solved | [`property`], [`solver`] | bounds on the robust value, a policy |
+//! | the result is checked again | [`verify`] | a certificate, accepted in exact arithmetic |
 //! | the policy is refined | [`controller`] | a feedback [`Controller`](controller::Controller), its closed loop, C code |
 //!
 //! What makes it fast: an action steers to a target point, so its distribution over cells does not depend
@@ -54,8 +55,9 @@
 //! # Two wings
 //!
 //! The modelling wing ([`spec`], [`dynamics`], [`partition`], [`noise`], [`statistics`] up to
-//! [`abstraction`]) and the checking wing ([`formats`], [`solver`]) meet only in [`imdp`] and [`property`]: the
-//! solver reads anyone's interval MDPs, and the compiler's models can be solved by anyone.
+//! [`abstraction`]) and the checking wing ([`formats`], [`solver`], [`verify`]) meet only in [`imdp`] and [`property`]: the
+//! solver reads anyone's interval MDPs, and the compiler's models can be solved by anyone. The solver fills in
+//! the certificates of [`verify`], which knows nothing of the solver.
 
 pub mod abstraction;
 #[cfg(feature = "cli")]

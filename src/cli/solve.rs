@@ -103,7 +103,7 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     let mut results = Vec::with_capacity(properties.len());
     bars.catch_interrupts()?;
     for property in &properties {
-        let (answer, result) = answer(&loaded.model, property, &arguments.limits, wanted, &bars)?;
+        let (mut answer, result) = answer(&loaded.model, property, &arguments.limits, wanted, &bars)?;
         if let Some(path) = &arguments.values {
             write_values(path, &loaded.model, &answer)?;
         }

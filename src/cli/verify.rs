@@ -48,7 +48,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<ExitCode, CliError> {
     let digests = loaded.digests()?;
     let outcome = check(&certificate, &loaded.model, &digests);
     if let Err(Rejection::Memory(error)) = outcome {
-        return Err(CliError::Failure(error.to_string()));
+        return Err(CliError::Input(error.to_string()));
     }
     if arguments.json {
         print(&format!("{:#}\n", report(&certificate, &outcome, start.elapsed())))?;

@@ -60,9 +60,10 @@ impl Answer {
 
     /// The certificate of this answer to `property`, for a model read from `files`.
     ///
-    /// `None` unless the options asked for evidence.
-    pub fn certificate(&self, property: &Property, files: Vec<ModelFile>) -> Option<Certificate> {
-        let evidence = self.solution.evidence.clone()?;
+    /// The evidence, which may be large, moves into it: `None` the second time, or if the options did not
+    /// ask for evidence.
+    pub fn certificate(&mut self, property: &Property, files: Vec<ModelFile>) -> Option<Certificate> {
+        let evidence = self.solution.evidence.take()?;
         let (property, states) = (property.clone(), self.values.lower.len() as u64);
         Some(Certificate { property, files, states, lower: self.lower, upper: self.upper, evidence })
     }

@@ -84,11 +84,14 @@ impl<'a> SideProof<'a> {
     ///
     /// `choices` is what the policy does in that step.
     pub fn step(&mut self, next: Vec<f64>, choices: &[u32], step: Option<u64>) -> Result<(), Rejection> {
-        let chosen = self.chosen_rows(&next, choices, step)?;
-        self.evaluate(chosen.as_ref().map_or(&self.rows.used, |chosen| &chosen.1))?;
-        match &chosen {
-            Some((rows, _)) => self.check_policy(&next, rows, step)?,
-            None => self.check_all_choices(&next, step)?,
+        if self.follows_policy {
+            let chosen = self.chosen_rows(&next, choices, step)?;
+            let rows: StateSet = chosen.iter().map(|&(_, row)| row as usize).collect();
+            self.evaluate(&rows)?;
+            self.check_policy(&next, &chosen, step)?;
+        } else {
+            self.evaluate(&self.rows.used)?;
+            self.check_all_choices(&next, step)?;
         }
         let Self { rows, fresh, values, .. } = self;
         let changed = |s: &StateId| values[*s as usize] != next[*s as usize];
@@ -101,24 +104,20 @@ impl<'a> SideProof<'a> {
         Ok(())
     }
 
-    /// The rows that the policy chooses where the bound is not trivial, by moving state and as a set.
+    /// The moving states whose bound is not trivial, and the rows that the policy chooses there.
     fn chosen_rows(
         &self,
         next: &[f64],
         choices: &[u32],
         step: Option<u64>,
-    ) -> Result<Option<(Vec<(usize, RowId)>, StateSet)>, Rejection> {
-        if !self.follows_policy {
-            return Ok(None);
-        }
-        let (mut rows, mut set) = (vec![], StateSet::with_capacity(self.expectations.len()));
-        for s in self.task.moving.ones().filter(|&s| next[s] != self.side.trivial()) {
+    ) -> Result<Vec<(usize, RowId)>, Rejection> {
+        let open = self.task.moving.ones().filter(|&s| next[s] != self.side.trivial());
+        let chosen = open.map(|s| {
             let row = self.rows.model.choices().row_of_choice(s as StateId, choices[s]);
-            let row = row.ok_or(Rejection::NoChoice { step, state: s as StateId, side: self.side })?;
-            rows.push((s, row));
-            set.insert(row as usize);
-        }
-        Ok(Some((rows, set)))
+            let missing = Rejection::NoChoice { step, state: s as StateId, side: self.side };
+            row.map(|row| (s, row)).ok_or(missing)
+        });
+        chosen.collect()
     }
 
     fn check_policy(

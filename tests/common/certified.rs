@@ -16,7 +16,7 @@ pub fn certified(
     property: &Property,
     options: &SolverOptions<'_>,
 ) -> (Answer, Certificate) {
-    let answer = Answer::new(model, property, &SolverOptions { evidence: true, ..*options }).unwrap();
+    let mut answer = Answer::new(model, property, &SolverOptions { evidence: true, ..*options }).unwrap();
     let certificate = answer.certificate(property, files()).unwrap();
     let mut bytes = vec![];
     verify::write(&certificate, &mut bytes).unwrap();

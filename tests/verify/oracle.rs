@@ -16,6 +16,9 @@ pub struct Oracle<'a> {
     pub complement: bool,
 }
 
+/// Choices, lower and upper bounds by state.
+pub type Table = (Vec<Option<u32>>, Vec<f64>, Vec<f64>);
+
 pub fn rational(x: f64) -> Rational {
     from_dyadic(x).unwrap()
 }
@@ -84,8 +87,8 @@ impl<'a> Oracle<'a> {
         })
     }
 
-    /// The tables `(choices, lower, upper)` before the first step and after each one.
-    pub fn tables(&self, steps: &[Step]) -> Vec<(Vec<Option<u32>>, Vec<f64>, Vec<f64>)> {
+    /// The tables before the first step and after each one.
+    pub fn tables(&self, steps: &[Step]) -> Vec<Table> {
         let mut table = (vec![None; self.model.num_states()], self.start(), self.start());
         let mut all = vec![table.clone()];
         for step in steps {
