@@ -57,7 +57,8 @@ fn false_certificates_are_rejected() {
     ] {
         assert!(counts.get(kind).is_some_and(|&count| count >= 20), "{kind}: {counts:?}");
     }
-    assert!(counts.values().sum::<usize>() >= 1000, "{counts:?}");
+    let but_truncated = counts.iter().filter(|(kind, _)| **kind != "truncated").map(|(_, count)| count);
+    assert!(but_truncated.sum::<usize>() >= 1000, "{counts:?}");
 }
 
 fn for_every_query(case: &Case, mut run: impl FnMut(Property, &[Rational])) {

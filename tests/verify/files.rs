@@ -24,7 +24,8 @@ fn sealed(text: &str) -> Vec<u8> {
 #[test]
 fn damage_is_noticed() {
     let bytes = room();
-    let runner = &mut proptest::test_runner::TestRunner::deterministic();
+    let config = ProptestConfig { failure_persistence: None, ..ProptestConfig::default() };
+    let mut runner = proptest::test_runner::TestRunner::new(config);
     let damage = (any::<prop::sample::Index>(), prop::option::of(1u8..=255));
     runner
         .run(&damage, |(at, flip)| {
@@ -72,7 +73,9 @@ fn rows_that_rounding_left_without_a_distribution() {
         let row: Vec<_> = (0..3).map(|s| (s, bounds.0, bounds.1)).collect();
         let m = model(&[row], &[Some(vec![(0, 0)]), None, None]);
         let m = labelled(&m, &set(3, &[0, 1, 2]), &set(3, &[1]));
-        for property in ["Pmaxmin=? [ F<=3 \"goal\" ]", "Pminmax=? [ F<=3 \"goal\" ]"] {
+        for property in
+            ["Pmaxmin=? [ F<=3 \"goal\" ]", "Pminmax=? [ F \"goal\" ]", "Pmaxmin=? [ F \"goal\" ]"]
+        {
             let property = property.parse().unwrap();
             let options = SolverOptions { evidence: true, ..Default::default() };
             let certificate =

@@ -29,8 +29,15 @@ fn bend(value: f64, kind: u8) -> f64 {
     bent.clamp(0.0, 1.0)
 }
 
+/// 250 cases; `PROPTEST_CASES` for more.
+fn config() -> ProptestConfig {
+    let default = ProptestConfig::default();
+    let cases = if std::env::var_os("PROPTEST_CASES").is_some() { default.cases } else { 250 };
+    ProptestConfig { cases, failure_persistence: None, ..default }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 250, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(config())]
 
     #[test]
     fn accepted_inductive_bounds_hold((model, safe, goal) in any_model(3, 3), lies in prop::collection::vec(lies(), 12)) {
