@@ -8,7 +8,7 @@
 //! left, `1 − Σ l`, from the lowest value upwards, `u − l` each: moving mass from a lower value to a higher
 //! one cannot help. For the maximum, from the highest value downwards.
 
-use super::values::ExactValues;
+use super::values::{ExactValues, SumOfProducts};
 use crate::imdp::Row;
 use crate::numeric::{Rational, decimal_parts};
 use num_bigint::{BigInt, BigUint};
@@ -22,9 +22,21 @@ const SMALL_SCALE: u32 = 30;
 pub(super) trait Mass:
     Clone + Ord + Zero + Into<BigUint> + for<'a> AddAssign<&'a Self> + for<'a> SubAssign<&'a Self>
 {
+    /// The digits of 64 bits, the least significant first.
+    fn digits(&self) -> impl Iterator<Item = u64>;
 }
-impl Mass for u128 {}
-impl Mass for BigUint {}
+
+impl Mass for u128 {
+    fn digits(&self) -> impl Iterator<Item = u64> {
+        [*self as u64, (*self >> 64) as u64].into_iter()
+    }
+}
+
+impl Mass for BigUint {
+    fn digits(&self) -> impl Iterator<Item = u64> {
+        self.iter_u64_digits()
+    }
+}
 
 /// A row with exact bounds.
 #[derive(Clone, Debug)]
@@ -137,19 +149,16 @@ impl<M: Mass> Numerators<M> {
 
     fn expectation(&self, successors: &[u32], values: &ExactValues<'_>, nature: Nature) -> Rational {
         let mut left = self.slack.clone();
-        let mut sum = BigUint::zero();
+        let mut sum = SumOfProducts::default();
         for i in order(successors, values.doubles(), nature) {
             let poured = if self.room[i] < left { self.room[i].clone() } else { left.clone() };
             left -= &poured;
             let mut mass = self.lower[i].clone();
             mass += &poured;
-            let value = values.numerator(successors[i]);
-            if !mass.is_zero() && !value.is_zero() {
-                sum += value * Into::<BigUint>::into(mass);
-            }
+            sum.add(mass.digits(), values.numerator(successors[i]));
         }
         let scale: BigUint = self.scale.clone().into();
-        Rational::new_raw(BigInt::from(sum), BigInt::from(scale << values.shift()))
+        Rational::new_raw(BigInt::from(sum.total()), BigInt::from(scale << values.shift()))
     }
 
     fn maximal_support(&self, successors: &[u32], values: &[f64]) -> Vec<bool> {
