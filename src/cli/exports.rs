@@ -1,7 +1,7 @@
 //! Values and policies as files, in PRISM's forms.
 
 use super::CliError;
-use crate::imdp::{ActionNames, IntervalMdp, StateId};
+use crate::imdp::{IntervalMdp, StateId};
 use crate::property::Verdict;
 use crate::solver::{Answer, Policy};
 use crate::verify::Certificate;
@@ -89,14 +89,7 @@ fn first_choices(model: &IntervalMdp) -> Vec<u64> {
 }
 
 fn action_name(model: &IntervalMdp, index: u64, row: Option<u32>, choice: u32) -> String {
-    match model.actions() {
-        ActionNames::OfRow => row.map_or_else(|| choice.to_string(), |row| format!("a_{row}")),
-        ActionNames::None => choice.to_string(),
-        ActionNames::OfChoice { names, ids } => {
-            let id = ids.get(index as usize).copied().unwrap_or(ActionNames::UNNAMED);
-            names.get(id as usize).cloned().unwrap_or_else(|| choice.to_string())
-        }
-    }
+    model.actions().name(index, row).map_or_else(|| choice.to_string(), Into::into)
 }
 
 /// Writes a file beside its place and renames it: nobody ever sees half of it.

@@ -1,5 +1,7 @@
 //! The interval MDP itself.
 
+use std::borrow::Cow;
+
 use super::{Choices, Labels, RowError, RowId, Rows, StateId, StateSet, StateVariables};
 
 /// An interval MDP that is known to be well-formed.
@@ -59,6 +61,21 @@ pub enum ActionNames {
 impl ActionNames {
     /// The index that stands for "this choice has no name".
     pub const UNNAMED: u32 = u32::MAX;
+
+    /// What a choice is called, if it has a name.
+    ///
+    /// `choice` counts over all states, self-loops of absorbing states included; `row` is the row it leads to,
+    /// none for self-loops.
+    pub fn name(&self, choice: u64, row: Option<RowId>) -> Option<Cow<'_, str>> {
+        match self {
+            Self::None => None,
+            Self::OfRow => row.map(|row| format!("a_{row}").into()),
+            Self::OfChoice { names, ids } => {
+                let id = *ids.get(usize::try_from(choice).ok()?)?;
+                names.get(id as usize).map(|name| name.as_str().into())
+            }
+        }
+    }
 }
 
 /// How large an interval MDP is, counted as PRISM's headers count.
