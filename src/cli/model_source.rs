@@ -1,7 +1,7 @@
 //! Where a model to be solved comes from: a run directory or explicit files.
 
 use super::{Bars, CliError};
-use crate::formats::{native, prism};
+use crate::formats::{ImportError, native, prism};
 use crate::imdp::IntervalMdp;
 use crate::progress::Progress;
 use crate::run_directory::{Manifest, NATIVE_MODEL, sha256_of_file};
@@ -120,7 +120,7 @@ fn load_explicit(tra: &Path, bars: &Bars) -> Result<LoadedModel, CliError> {
     });
     bars.finish();
     let imported = imported.map_err(|error| match error {
-        prism::ImportError::Io { .. } => CliError::Failure(error.to_string()),
+        ImportError::Io { .. } => CliError::Failure(error.to_string()),
         _ => CliError::Input(error.to_string()),
     })?;
     let warnings = imported.warnings.iter().map(ToString::to_string).collect();

@@ -1,8 +1,8 @@
 //! Why two sides cannot be compared.
 
 use crate::abstraction::AbstractionError;
+use crate::formats::ImportError;
 use crate::formats::native::NativeError;
-use crate::formats::prism::ImportError;
 use crate::property::{ParseError, PropertyError};
 use crate::solver::SolveError;
 use crate::spec::Diagnostic;

@@ -28,6 +28,10 @@ impl NameRule {
     pub fn check_labels(&self, model: &IntervalMdp) -> Result<(), NameError> {
         self.check("label", model.labels().iter().map(|(name, _)| name))
     }
+    /// Checks the names of the variables of a model.
+    pub fn check_variables(&self, model: &IntervalMdp) -> Result<(), NameError> {
+        self.check("variable", model.variables().iter().map(|variable| variable.name.as_str()))
+    }
 
     /// Checks the names of the choices of a model.
     pub fn check_actions(&self, model: &IntervalMdp) -> Result<(), NameError> {

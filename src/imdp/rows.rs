@@ -182,6 +182,14 @@ impl Rows {
         self.upper.reserve_exact(entries);
     }
 
+    /// Forgets all rows and keeps their room.
+    pub fn clear(&mut self) {
+        self.starts.truncate(1);
+        self.successors.clear();
+        self.lower.clear();
+        self.upper.clear();
+    }
+
     /// Gives back the room that is not used.
     pub fn shrink_to_fit(&mut self) {
         self.starts.shrink_to_fit();

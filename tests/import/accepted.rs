@@ -1,6 +1,7 @@
 //! What is read, and how it is shared.
 
-use dynabs::formats::prism::{Imported, Warning, import_with_progress};
+use dynabs::formats::prism::import_with_progress;
+use dynabs::formats::{Imported, Place, Warning};
 use dynabs::imdp::{ActionNames, ModelKind, RowRange, VariableValues};
 
 use super::{Files, LAB, STA, TRA, assert_refused, import_texts};
@@ -63,7 +64,7 @@ fn decimals_decide_sums() {
     let tra = "3 3 5\n0 0 0 [0,1]\n0 0 1 [0,1]\n1 0 0 0.5\n1 0 1 0.4999999995\n2 0 2 [1,1]\n";
     let read = import_texts(tra, None, "0=\"init\"\n0: 0\n").unwrap();
     let [warning @ Warning::Widened { count: 1, first }] = &read.warnings[..] else { panic!() };
-    assert_eq!((first.line, first.column), (4, 1));
+    assert_eq!(first.place, Place::Text { line: 4, column: 1 });
     assert!(warning.to_string().contains("m.tra:4:1"));
     let row = read.model.rows().row(1);
     assert_eq!(row.lower, [0.5, 0.4999999995]);

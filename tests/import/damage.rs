@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use dynabs::formats::prism::{Imported, Warning};
+use dynabs::formats::{Imported, Warning};
 use dynabs::imdp::{IntervalMdp, StateVariable};
 use proptest::prelude::*;
 

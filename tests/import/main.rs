@@ -7,7 +7,8 @@ mod refused;
 
 use std::path::PathBuf;
 
-use dynabs::formats::prism::{ImportError, Imported, import};
+use dynabs::formats::prism::import;
+use dynabs::formats::{ImportError, Imported};
 
 const TRA: &str = "3 3 4\n0 0 1 [0.2,0.8] a\n0 0 2 [0.2,0.8] a\n1 0 1 [1,1] b\n2 0 2 [1,1]\n";
 const STA: &str = "(x,b)\n0:(3,true)\n1:(-1,false)\n2:(0,true)\n";

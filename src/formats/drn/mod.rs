@@ -28,12 +28,16 @@
 //!
 //! The format has no place for labels that no state has, for the order of labels, for variables, and for
 //! states without choices that other tools can check. They stand in comments that begin with `//!`, which
-//! Storm skips. A state without choices is written with a self-loop, for it is
+//! Storm skips and [`import`] understands. A state without choices is written with a self-loop, for it is
 //! treated as absorbing, and the comment `//! deadlock`. Without names of actions, a choice is called by its
 //! index, as Storm does. Lower bounds of 0 are written as they are.
 
+mod header;
+mod read;
+mod state_line;
 mod write;
 
+pub use read::{import, import_with_progress};
 pub use write::DrnWriter;
 
 /// What Storm calls a choice without a name.

@@ -8,5 +8,5 @@
 mod read;
 mod write;
 
-pub use read::{ImportError, Imported, Position, Warning, import, import_with_progress};
+pub use read::{import, import_with_progress};
 pub use write::{MAX_COUNT, RAISED_LOWER_BOUND, TraWriter, write_lab, write_sta};

@@ -2,20 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::error::{ImportError, Warning};
 use super::labels::read_lab;
 use super::states::read_sta;
 use super::transitions::read_tra;
+use crate::formats::import::{ImportError, Imported};
 use crate::imdp::{IntervalMdp, Parts, StateVariables};
-
-/// A model read from explicit files.
-#[derive(Clone, Debug)]
-pub struct Imported {
-    /// The model.
-    pub model: IntervalMdp,
-    /// What was accepted although it deserves a look, at most one warning of each kind.
-    pub warnings: Vec<Warning>,
-}
 
 /// Reads an interval MDP or interval DTMC from PRISM's explicit files.
 ///

@@ -4,9 +4,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-use super::error::{Fault, ImportError};
-use super::lines::Lines;
-use super::text::Cursor;
+use crate::formats::import::{Cursor, Fault, ImportError, Lines};
 use crate::imdp::{Labels, StateSet, require_memory};
 
 /// Reads a `.lab` file for a model of `states` states; returns the initial states and the other labels.

@@ -2,13 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::bounds::Judgement;
-use super::decimal::read_decimal;
-use super::error::Fault;
-use super::exact_sum::ExactSum;
-use super::pending_row::PendingRow;
-use super::row_table::hash_row;
-use super::text::{Cursor, describe};
+use crate::formats::import::{
+    Cursor, Fault, Judgement, PendingRow, RowFault, describe, hash_row, read_interval, written_bounds,
+};
 use crate::imdp::{ActionNames, ModelKind, Row, Rows, StateId};
 
 /// What the header says about the lines.
@@ -146,24 +142,7 @@ impl<'a> Parser<'a> {
     fn transition(&mut self) -> Result<(StateId, f64, f64), Box<Fault>> {
         let successor = self.state("a destination")?;
         self.cursor.expect(b' ', "one blank")?;
-        if self.cursor.peek() != b'[' {
-            let probability = read_decimal(&mut self.cursor)?;
-            return Ok((successor, probability, probability));
-        }
-        self.cursor.advance(1);
-        let lower_at = self.cursor.offset();
-        let lower = read_decimal(&mut self.cursor)?;
-        let lower_text = &self.text[lower_at..self.cursor.offset()];
-        self.cursor.expect(b',', "`,` and the upper bound")?;
-        let upper_at = self.cursor.offset();
-        let upper = read_decimal(&mut self.cursor)?;
-        let upper_text = &self.text[upper_at..self.cursor.offset()];
-        // Bounds that differ by less than a double can tell are compared as written.
-        if lower > upper || (lower == upper && lower_text != upper_text && exceeds(lower_text, upper_text)) {
-            let expected = format!("an upper bound of at least {}", lower_text.escape_ascii());
-            return Err(self.cursor.fault_at(upper_at, expected));
-        }
-        self.cursor.expect(b']', "`]`")?;
+        let (lower, upper) = read_interval(&mut self.cursor, b"")?;
         Ok((successor, lower, upper))
     }
 
@@ -213,8 +192,10 @@ impl<'a> Parser<'a> {
         }
         let Some(choice) = self.chunk.choices.last_mut() else { return Ok(()) };
         let lines = &self.text[self.start..self.cursor.offset()];
-        let field = self.shape.key_fields() + 1;
-        let finished = self.row.finish(lines, u64::from(choice.line), field, &mut self.chunk.rows);
+        let (line, field) = (u64::from(choice.line), self.shape.key_fields() + 1);
+        let written = || lines.split(|&byte| byte == b'\n').filter_map(|line| bounds_of_line(line, field));
+        let finished = self.row.finish(written, &mut self.chunk.rows);
+        let finished = finished.map_err(|fault| place(fault, lines, line, field));
         self.row.clear();
         if finished? == Judgement::Widened {
             self.chunk.widened.get_or_insert((0, u64::from(choice.line))).0 += 1;
@@ -228,7 +209,24 @@ fn last_row(rows: &Rows) -> Row<'_> {
     rows.row(rows.len() as u32 - 1)
 }
 
+/// The texts of the bounds in a line that has been parsed before, in its field number `field`.
+fn bounds_of_line(line: &[u8], field: usize) -> Option<(&[u8], &[u8])> {
+    let start = line.iter().enumerate().filter(|(_, byte)| **byte == b' ').nth(field - 1)?.0 + 1;
+    let length = line[start..].iter().position(|byte| matches!(byte, b' ' | b'\r'));
+    written_bounds(&line[start..length.map_or(line.len(), |length| start + length)])
+}
+
+/// Says where in the lines of a choice a fault is; the first of them is `first_line`.
 #[cold]
-fn exceeds(left: &[u8], right: &[u8]) -> bool {
-    ExactSum::of([left]).compare(&ExactSum::of([right])).is_gt()
+fn place(fault: RowFault, lines: &[u8], first_line: u64, field: usize) -> Box<Fault> {
+    match fault {
+        RowFault::NoDistribution(fault) => Fault::new(first_line, 1, fault.expected, fault.sum),
+        RowFault::Twice { nth, .. } => {
+            let line = lines.split(|&byte| byte == b'\n').nth(nth as usize).unwrap_or_default();
+            let before = line.split(|&byte| byte == b' ').take(field - 1);
+            let column = before.map(|text| text.len() + 1).sum::<usize>();
+            let found = describe(&line[column..]);
+            Fault::new(first_line + u64::from(nth), column + 1, RowFault::ONCE, found)
+        }
+    }
 }

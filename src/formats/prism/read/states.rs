@@ -4,10 +4,8 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-use super::error::{Fault, ImportError};
-use super::lines::Lines;
-use super::text::Cursor;
-use crate::imdp::{StateSet, StateVariables, VariableValues, require_memory};
+use crate::formats::import::{Cursor, Fault, ImportError, Lines, read_variable_value};
+use crate::imdp::{StateVariables, VariableValues, require_memory};
 
 /// Reads a `.sta` file for a model of `states` states.
 pub(super) fn read_sta(path: &Path, states: u64) -> Result<StateVariables, ImportError> {
@@ -78,42 +76,8 @@ fn read_state(
             0 => cursor.expect(b'(', "`(`")?,
             _ => cursor.expect(b',', "`,` and the value of the next variable")?,
         }
-        if state == 0 {
-            columns.push(new_column(cursor, states as usize));
-        }
-        push_value(cursor, state as usize, &mut columns[variable])?;
+        read_variable_value(cursor, state as usize, variable, states as usize, columns)?;
     }
     cursor.expect(b')', "`)` after the last variable")?;
     cursor.line_end("the end of the line")
-}
-
-/// The first value decides what a variable is.
-fn new_column(cursor: &Cursor<'_>, states: usize) -> VariableValues {
-    match cursor.peek() {
-        b't' | b'f' => VariableValues::Bool(StateSet::with_capacity(states)),
-        _ => VariableValues::Int(Vec::with_capacity(states)),
-    }
-}
-
-fn push_value(cursor: &mut Cursor<'_>, state: usize, column: &mut VariableValues) -> Result<(), Box<Fault>> {
-    match column {
-        VariableValues::Bool(set) => {
-            if cursor.skip(b"true") {
-                set.insert(state);
-            } else if !cursor.skip(b"false") {
-                return Err(cursor.fault_here("`true` or `false`"));
-            }
-        }
-        VariableValues::Int(values) => {
-            let start = cursor.offset();
-            let negative = cursor.skip(b"-");
-            let magnitude = cursor.unsigned("an integer")?;
-            let value =
-                i64::try_from(magnitude).map_or(i64::MAX, |value| if negative { -value } else { value });
-            let value = i32::try_from(value)
-                .map_err(|_| cursor.fault_at(start, format!("between {} and {}", i32::MIN, i32::MAX)))?;
-            values.push(value);
-        }
-    }
-    Ok(())
 }

@@ -8,11 +8,10 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::assemble::{Assembler, Header, Transitions};
+use super::assemble::{Assembler, Header};
 use super::chunks::ChunkReader;
-use super::error::ImportError;
-use super::lines::Lines;
 use super::parse_chunk::{LineShape, parse_chunk};
+use crate::formats::import::{ImportError, Lines, Transitions};
 use crate::imdp::{ModelKind, StateId};
 
 /// How many chunks are in flight per thread.

@@ -19,7 +19,7 @@ const POWERS: [f64; 23] = [
 /// # Errors
 /// A sign, `NaN`, more than 1 as written, or a positive number that no double can tell from 0.
 #[inline]
-pub(super) fn read_decimal(cursor: &mut Cursor<'_>) -> Result<f64, Box<Fault>> {
+pub(in crate::formats) fn read_decimal(cursor: &mut Cursor<'_>) -> Result<f64, Box<Fault>> {
     let text = cursor.rest();
     let mut at = 0;
     let mut mantissa = 0u64;

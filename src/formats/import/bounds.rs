@@ -10,7 +10,7 @@ const SCALING_MARGIN: f64 = 4e-15;
 
 /// What [`judge`] did to the bounds.
 #[derive(Debug, PartialEq)]
-pub(super) enum Judgement {
+pub(in crate::formats) enum Judgement {
     /// Nothing: they admit a distribution.
     Fine,
     /// They missed 1 by at most 10⁻⁹ and now contain what was written and a distribution.
@@ -19,7 +19,7 @@ pub(super) enum Judgement {
 
 /// Bounds that admit no distribution.
 #[derive(Debug, PartialEq)]
-pub(super) struct NoDistribution {
+pub(in crate::formats) struct NoDistribution {
     /// What the sum should be.
     pub expected: &'static str,
     /// What it is.
@@ -30,20 +30,18 @@ pub(super) struct NoDistribution {
 ///
 /// Reading and adding err by less than `len` roundings each.
 #[inline]
-pub(super) fn is_clear(len: usize, lower_sum: f64, upper_sum: f64) -> bool {
+pub(in crate::formats) fn is_clear(len: usize, lower_sum: f64, upper_sum: f64) -> bool {
     let allowance = rounding_factor(2 * len);
     lower_sum <= 1.0 - allowance && upper_sum >= 1.0 + allowance
 }
 
 /// Sums the written bounds of one choice exactly and widens them where they miss 1 by at most 10⁻⁹.
 ///
-/// `lines` are the lines of the choice, the bounds being their field number `field`.
-pub(super) fn judge<'a>(
-    lines: &[u8],
-    field: usize,
-    bounds: impl Iterator<Item = (&'a mut f64, &'a mut f64)>,
+/// `written` gives the texts of the bounds, any number of times.
+pub(in crate::formats) fn judge<'t, 'b, I: Iterator<Item = (&'t [u8], &'t [u8])>>(
+    written: impl Fn() -> I,
+    bounds: impl Iterator<Item = (&'b mut f64, &'b mut f64)>,
 ) -> Result<Judgement, NoDistribution> {
-    let written = || lines.split(|&byte| byte == b'\n').filter_map(|line| written_bounds(line, field));
     let lower = ExactSum::of(written().map(|(lower, _)| lower));
     // A plain number is both bounds.
     let plain = written().all(|(lower, upper)| lower == upper);
@@ -74,16 +72,15 @@ pub(super) fn judge<'a>(
     Ok(Judgement::Widened)
 }
 
-/// The texts of the bounds in a line that has been parsed before.
-fn written_bounds(line: &[u8], field: usize) -> Option<(&[u8], &[u8])> {
-    let start = line.iter().enumerate().filter(|(_, byte)| **byte == b' ').nth(field - 1)?.0 + 1;
-    let length = line[start..].iter().position(|byte| matches!(byte, b' ' | b'\r'));
-    let interval = &line[start..length.map_or(line.len(), |length| start + length)];
+/// The two bounds in the text of an interval that has been parsed before, blanks around them aside.
+///
+/// A plain number is both.
+pub(in crate::formats) fn written_bounds(interval: &[u8]) -> Option<(&[u8], &[u8])> {
     let Some(inside) = interval.strip_prefix(b"[").and_then(|rest| rest.strip_suffix(b"]")) else {
         return Some((interval, interval));
     };
     let comma = inside.iter().position(|&byte| byte == b',')?;
-    Some((&inside[..comma], &inside[comma + 1..]))
+    Some((inside[..comma].trim_ascii(), inside[comma + 1..].trim_ascii()))
 }
 
 #[cfg(test)]
@@ -92,12 +89,13 @@ mod tests {
     use crate::numeric::{Rational, from_decimal, from_dyadic};
 
     fn judged(lines: &str, lower: &mut [f64], upper: &mut [f64]) -> Result<Judgement, NoDistribution> {
-        judge(lines.as_bytes(), 2, lower.iter_mut().zip(upper.iter_mut()))
+        let written = || lines.split('\n').filter_map(|line| written_bounds(line.as_bytes()));
+        judge(written, lower.iter_mut().zip(upper.iter_mut()))
     }
 
     #[test]
     fn sums_that_miss_by_little_are_widened() {
-        let lines = "0 0 [0.5000000003,0.6] a\r\n0 1 [0.5000000004,0.6] a\r\n";
+        let lines = "[0.5000000003,0.6]\n[0.5000000004, 0.6]";
         let (mut lower, mut upper) = ([0.5000000003, 0.5000000004], [0.6, 0.6]);
         let original = lower;
         assert_eq!(judged(lines, &mut lower, &mut upper), Ok(Judgement::Widened));
@@ -110,7 +108,7 @@ mod tests {
         }
         assert_eq!(upper, [0.6, 0.6]);
 
-        let lines = "0 0 0.3333333333\n0 1 0.3333333333\n0 2 0.3333333333\n";
+        let lines = "0.3333333333\n0.3333333333\n0.3333333333";
         let (mut lower, mut upper) = ([0.3333333333; 3], [0.3333333333; 3]);
         assert_eq!(judged(lines, &mut lower, &mut upper), Ok(Judgement::Widened));
         assert_eq!(lower, [0.3333333333; 3]);
@@ -122,9 +120,9 @@ mod tests {
 
     #[test]
     fn the_decimals_decide() {
-        let exact = "0 0 0.1\n0 1 0.2\n0 2 0.7\n";
+        let exact = "0.1\n0.2\n0.7";
         assert_eq!(judged(exact, &mut [0.1, 0.2, 0.7], &mut [0.1, 0.2, 0.7]), Ok(Judgement::Fine));
-        let above = "0 0 [0.5,1]\n0 1 [0.50000000100000000000001,1]\n";
+        let above = "[0.5,1]\n[0.50000000100000000000001,1]";
         assert_eq!(judged(above, &mut [0.5; 2], &mut [1.0; 2]).unwrap_err().sum, "1.00000000100000000000001");
     }
 }

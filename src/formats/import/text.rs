@@ -1,4 +1,4 @@
-//! The lexical elements that the three files have in common.
+//! The lexical elements that text formats have in common.
 
 use super::error::Fault;
 
@@ -6,7 +6,7 @@ use super::error::Fault;
 const SHOWN: usize = 40;
 
 /// A reader of a text whose lines all end in `\n`, one element at a time.
-pub(super) struct Cursor<'a> {
+pub(in crate::formats) struct Cursor<'a> {
     text: &'a [u8],
     at: usize,
     line_start: usize,
@@ -42,6 +42,12 @@ impl<'a> Cursor<'a> {
     #[inline]
     pub fn rest(&self) -> &'a [u8] {
         &self.text[self.at..]
+    }
+
+    /// Everything read from an offset on.
+    #[inline]
+    pub fn since(&self, offset: usize) -> &'a [u8] {
+        &self.text[offset..self.at]
     }
 
     /// Skips bytes that are known to be there and not to end the line.
@@ -141,7 +147,7 @@ impl<'a> Cursor<'a> {
 }
 
 /// What an error message calls the token that `text` starts with.
-pub(super) fn describe(text: &[u8]) -> String {
+pub(in crate::formats) fn describe(text: &[u8]) -> String {
     let blank = |byte: &u8| matches!(byte, b' ' | b'\n' | b'\r' | b',' | b']');
     match text.first() {
         None | Some(b'\n' | b'\r') => return "the end of the line".to_owned(),
@@ -154,6 +160,6 @@ pub(super) fn describe(text: &[u8]) -> String {
 }
 
 /// A number for messages and its noun, in the plural unless it is 1.
-pub(super) fn counted(count: u64, noun: &str) -> String {
+pub(in crate::formats) fn counted(count: u64, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }

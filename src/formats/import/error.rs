@@ -1,28 +1,71 @@
-//! What can be wrong with explicit files, and where.
+//! What can be wrong with the files of a model, and where.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::imdp::{ImdpError, MemoryError, StateId};
 
-/// A place in a text file; lines and columns count from 1, columns in bytes.
+/// A place in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Position {
     /// The file.
     pub path: PathBuf,
-    /// The line.
-    pub line: u64,
-    /// The column.
-    pub column: u32,
+    /// Where in it.
+    pub place: Place,
+}
+
+/// Where something is in a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// In a text; lines and columns count from 1, columns in bytes.
+    Text {
+        /// The line.
+        line: u64,
+        /// The column.
+        column: u32,
+    },
+    /// In a member of an archive.
+    Member {
+        /// The name of the member.
+        name: String,
+        /// The entry, from 0; none if the member as a whole is meant.
+        entry: Option<u64>,
+    },
+}
+
+impl Position {
+    /// A place in a text file.
+    pub(in crate::formats) fn text(path: &Path, line: u64, column: u32) -> Self {
+        Self { path: path.to_owned(), place: Place::Text { line, column } }
+    }
+
+    /// A place in an archive.
+    pub(in crate::formats) fn member(path: &Path, name: &str, entry: Option<u64>) -> Self {
+        Self { path: path.to_owned(), place: Place::Member { name: name.to_owned(), entry } }
+    }
+
+    /// The error of finding one thing here where another should be.
+    pub(in crate::formats) fn refuse(
+        self,
+        expected: impl Into<String>,
+        found: impl Into<String>,
+    ) -> ImportError {
+        ImportError::Refused { at: self, expected: expected.into(), found: found.into() }
+    }
 }
 
 impl fmt::Display for Position {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}:{}", self.path.display(), self.line, self.column)
+        write!(f, "{}:", self.path.display())?;
+        match &self.place {
+            Place::Text { line, column } => write!(f, "{line}:{column}"),
+            Place::Member { name, entry: None } => write!(f, "{name}"),
+            Place::Member { name, entry: Some(entry) } => write!(f, "{name}[{entry}]"),
+        }
     }
 }
 
-/// Why explicit files were refused.
+/// Why the files of a model were refused.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ImportError {
@@ -40,7 +83,7 @@ pub enum ImportError {
         /// Where it was looked for.
         path: PathBuf,
     },
-    /// The text is not what the format wants.
+    /// The content is not what the format wants.
     #[error("{at}: expected {expected}, found {found}")]
     Refused {
         /// Where.
@@ -60,7 +103,7 @@ pub enum ImportError {
 
 impl ImportError {
     /// Wraps an error of the system about a file.
-    pub(super) fn io(path: &Path, source: std::io::Error) -> Self {
+    pub(in crate::formats) fn io(path: &Path, source: std::io::Error) -> Self {
         Self::Io { path: path.to_owned(), source }
     }
 }
@@ -85,6 +128,13 @@ pub enum Warning {
         /// The first of them.
         first: StateId,
     },
+    /// Something that no property can ask about was passed over.
+    Ignored {
+        /// The file.
+        path: PathBuf,
+        /// What it was.
+        what: String,
+    },
 }
 
 impl fmt::Display for Warning {
@@ -100,13 +150,14 @@ impl fmt::Display for Warning {
                     "{count} state(s) have no choice and are treated as absorbing, the first is {first}"
                 )
             }
+            Self::Ignored { path, what } => write!(f, "{}: {what} is not read", path.display()),
         }
     }
 }
 
 /// A refusal within one file, or within one chunk of it: lines count from the start of that part.
 #[derive(Debug)]
-pub(super) struct Fault {
+pub(in crate::formats) struct Fault {
     /// The line, from 0.
     pub line: u64,
     /// The column, from 1.
@@ -125,7 +176,6 @@ impl Fault {
 
     /// The error, for a fault in a part of `path` that starts after `lines_before` lines.
     pub fn in_file(self, path: &Path, lines_before: u64) -> ImportError {
-        let at = Position { path: path.to_owned(), line: lines_before + self.line + 1, column: self.column };
-        ImportError::Refused { at, expected: self.expected, found: self.found }
+        Position::text(path, lines_before + self.line + 1, self.column).refuse(self.expected, self.found)
     }
 }

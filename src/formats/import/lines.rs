@@ -11,7 +11,7 @@ const LONGEST_LINE: u64 = 16 << 20;
 
 /// The lines of a file.
 #[derive(Debug)]
-pub(super) struct Lines<'a, R> {
+pub(in crate::formats) struct Lines<'a, R> {
     path: &'a Path,
     source: R,
     buffer: Vec<u8>,
@@ -68,6 +68,12 @@ impl<'a, R: BufRead> Lines<'a, R> {
             return Ok(None);
         }
         Ok(Some(Cursor::new(&self.buffer, self.lines_read - 1)))
+    }
+
+    /// The next line, which may be empty; none at the end of the file.
+    pub fn next_or_blank(&mut self) -> Result<Option<Cursor<'_>>, ImportError> {
+        self.read_line()?;
+        Ok((!self.buffer.is_empty()).then(|| Cursor::new(&self.buffer, self.lines_read - 1)))
     }
 
     fn is_blank(&self) -> bool {
