@@ -1,6 +1,7 @@
 //! `dynabs-check`: its subcommands.
 
 use super::controller::{ControllerArguments, run as controller};
+use super::convert::{ConvertArguments, run as convert};
 use super::diff::{DiffArguments, run as diff};
 use super::simulate::{SimulateArguments, run as simulate};
 use super::solve::{SolveArguments, run as solve};
@@ -23,7 +24,7 @@ pub struct Arguments {
 
 #[derive(Clone, Debug, Subcommand)]
 enum Command {
-    /// Solve properties of a compiled model or of explicit PRISM files.
+    /// Solve properties of a compiled model or of a model in a file.
     Solve(SolveArguments),
     /// Write the controller of a compiled model as JSON, CSV or C.
     Controller(ControllerArguments),
@@ -31,6 +32,8 @@ enum Command {
     Simulate(SimulateArguments),
     /// Check a certificate of `solve --certificate` in exact arithmetic; exit code 1 if it is rejected.
     Verify(VerifyArguments),
+    /// Write a model in another format, or with one state per row.
+    Convert(ConvertArguments),
     /// Compare two run directories, models, results or reference files; exit code 1 on a difference.
     Diff(DiffArguments),
 }
@@ -51,6 +54,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
         Command::Controller(arguments) => controller(arguments),
         Command::Simulate(arguments) => simulate(arguments),
         Command::Verify(arguments) => verify(arguments),
+        Command::Convert(arguments) => convert(arguments),
         Command::Diff(arguments) => diff(arguments),
     }
 }

@@ -5,6 +5,7 @@ use super::solve::{LimitArguments, Wanted, answer};
 use super::summary::summary;
 use super::{Bars, CliError, print, use_threads};
 use crate::abstraction::compile;
+use crate::formats::{Encoding, Format};
 use crate::run_directory::{Manifest, Staging, WriteOptions, write_run};
 use crate::spec::{Document, Problem, SetArgument, json_schema, starter_model};
 use clap::Parser;
@@ -36,8 +37,16 @@ pub struct Arguments {
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
 
-    /// Leave out the explicit files model.tra, model.sta and model.lab.
-    #[arg(long)]
+    /// Write the model in these formats as well; model.dynabs is always written.
+    #[arg(long, value_name = "FORMAT", value_enum, value_delimiter = ',', default_values_t = [Format::Prism])]
+    format: Vec<Format>,
+
+    /// How choices are written in these formats: as they are (model.*), or with one state per row (rows.*).
+    #[arg(long, value_name = "ENCODING", value_enum, default_value_t)]
+    encoding: Encoding,
+
+    /// Leave out the explicit files model.tra, model.sta and model.lab: the same as --format dynabs.
+    #[arg(long, conflicts_with = "format")]
     no_tra: bool,
 
     /// Solve the task natively as well.
@@ -81,6 +90,8 @@ Examples:
   dynabs-compile --init my-model.json
   dynabs-compile models/double_integrator.json -o out
   dynabs-compile models/double_integrator.json --dry-run --set /input/lower=[-40] --set /input/upper=[40]
+  dynabs-compile models/double_integrator.json -o out --format umb,drn
+  dynabs-compile models/double_integrator.json -o out --encoding rows
   prism -importmodel out/model.tra,sta,lab -ex out/model.props";
 
 /// Runs the tool.
@@ -141,7 +152,11 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
     bars.catch_interrupts()?;
     if let Some(output) = arguments.output.as_deref().filter(|_| !arguments.dry_run) {
         let writing = Instant::now();
-        let options = WriteOptions { no_tra: arguments.no_tra, force: arguments.force };
+        let options = WriteOptions {
+            formats: if arguments.no_tra { vec![] } else { arguments.format.clone() },
+            encoding: arguments.encoding,
+            force: arguments.force,
+        };
         manifest = write_run(output, &document, &problem, &abstraction, manifest, options, &*bars)?;
         phases.push(("files", writing.elapsed()));
     }

@@ -1,6 +1,6 @@
 //! Values and policies as files, in PRISM's forms.
 
-use super::CliError;
+use super::{CliError, StagedFiles};
 use crate::imdp::{IntervalMdp, StateId};
 use crate::property::Verdict;
 use crate::solver::{Answer, Policy};
@@ -8,7 +8,6 @@ use crate::verify::Certificate;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
-use tempfile::NamedTempFile;
 
 /// Writes one line per state: its lower bound, or for thresholds `true`, `false` or `undecided`.
 ///
@@ -97,20 +96,7 @@ pub(super) fn replace(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
 ) -> Result<(), CliError> {
-    let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let write = || {
-        let mut builder = tempfile::Builder::new();
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            builder.permissions(std::fs::Permissions::from_mode(0o666));
-        }
-        let file: NamedTempFile = builder.tempfile_in(directory)?;
-        let mut out = BufWriter::new(file.as_file());
-        fill(&mut out)?;
-        out.flush()?;
-        drop(out);
-        file.persist(path).map_err(|error| error.error)
-    };
-    write().map(drop).map_err(|error| CliError::Failure(format!("{}: {error}", path.display())))
+    let mut files = StagedFiles::default();
+    files.write(path, fill)?;
+    files.commit()
 }

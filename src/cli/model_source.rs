@@ -1,7 +1,7 @@
-//! Where a model to be solved comes from: a run directory or explicit files.
+//! Where a model to be solved comes from: a run directory or a file of any format.
 
 use super::{Bars, CliError};
-use crate::formats::{ImportError, native, prism};
+use crate::formats::Format;
 use crate::imdp::IntervalMdp;
 use crate::progress::Progress;
 use crate::run_directory::{Manifest, NATIVE_MODEL, sha256_of_file};
@@ -36,33 +36,29 @@ impl LoadedModel {
     }
 }
 
-/// Loads a model: a directory's native file (or its `.tra` if `explicit`), or a `.tra` file.
+/// Loads a model: a directory's native file (or its `.tra` if `explicit`), or a file whose extension tells its format.
 ///
 /// # Errors
 /// [`CliError::Input`] if nothing usable is there or it is malformed.
 pub(super) fn load(path: &Path, explicit: bool, bars: &Bars) -> Result<LoadedModel, CliError> {
+    const EXPECTED: &str = "a directory written by dynabs-compile or a .tra, .drn, .umb or .dynabs file";
     let shown = path.display();
     if path.is_dir() {
         return load_directory(path, explicit, bars);
     }
     if !path.exists() {
-        return Err(CliError::Input(format!(
-            "{shown}: found nothing; expected a directory written by dynabs-compile or a .tra file"
-        )));
+        return Err(CliError::Input(format!("{shown}: found nothing; expected {EXPECTED}")));
     }
-    match path.extension().and_then(|extension| extension.to_str()) {
-        Some("tra") => load_explicit(path, bars),
-        Some("dynabs") => load_native(path),
-        _ => Err(CliError::Input(format!(
-            "{shown}: found a file that is not .tra; expected a directory written by dynabs-compile or a .tra file"
-        ))),
+    match Format::of_path(path) {
+        Some(format) => load_file(path, format, bars),
+        None => Err(CliError::Input(format!("{shown}: found a file of another kind; expected {EXPECTED}"))),
     }
 }
 
 fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<LoadedModel, CliError> {
     let (native, tra) = (directory.join(NATIVE_MODEL), directory.join("model.tra"));
     if native.exists() && !explicit {
-        return load_native(&native);
+        return load_file(&native, Format::Native, bars);
     }
     if !tra.exists() {
         let wanted =
@@ -72,7 +68,7 @@ fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<Loade
             directory.display()
         )));
     }
-    let mut loaded = load_explicit(&tra, bars)?;
+    let mut loaded = load_file(&tra, Format::Prism, bars)?;
     let manifest = fs::read(directory.join("manifest.json")).ok();
     let manifest = manifest.and_then(|bytes| serde_json::from_slice::<Manifest>(&bytes).ok());
     if let Some(manifest) = manifest
@@ -101,30 +97,25 @@ fn raised_bounds(manifest: &Manifest, model: &IntervalMdp) -> String {
     }
 }
 
-fn load_native(path: &Path) -> Result<LoadedModel, CliError> {
-    let model = native::read(path).map_err(|error| match error {
-        native::NativeError::Io { .. } => CliError::Failure(error.to_string()),
-        _ => CliError::Input(error.to_string()),
-    })?;
-    let (properties, files) = (path.with_extension("props"), vec![path.to_owned()]);
-    Ok(LoadedModel { model, warnings: vec![], properties, files })
-}
-
-fn load_explicit(tra: &Path, bars: &Bars) -> Result<LoadedModel, CliError> {
-    let bytes = fs::metadata(tra).map_or(0, |metadata| metadata.len());
-    bars.start("reading", bytes);
+fn load_file(path: &Path, format: Format, bars: &Bars) -> Result<LoadedModel, CliError> {
+    bars.start("reading", format.work(path));
     let mut before = 0;
-    let imported = prism::import_with_progress(tra, None, None, &mut |read| {
+    let imported = format.import(path, &mut |read| {
         bars.advance(read.saturating_sub(before));
         before = read;
     });
     bars.finish();
-    let imported = imported.map_err(|error| match error {
-        ImportError::Io { .. } => CliError::Failure(error.to_string()),
-        _ => CliError::Input(error.to_string()),
+    let imported = imported.map_err(|error| match error.is_io() {
+        true => CliError::Failure(error.to_string()),
+        false => CliError::Input(error.to_string()),
     })?;
     let warnings = imported.warnings.iter().map(ToString::to_string).collect();
-    let files = ["tra", "sta", "lab"].map(|extension| tra.with_extension(extension));
-    let files = files.into_iter().filter(|path| path.exists()).collect();
-    Ok(LoadedModel { model: imported.model, warnings, properties: tra.with_extension("props"), files })
+    let files = match format {
+        Format::Prism => {
+            let files = ["tra", "sta", "lab"].map(|extension| path.with_extension(extension));
+            files.into_iter().filter(|path| path.exists()).collect()
+        }
+        _ => vec![path.to_owned()],
+    };
+    Ok(LoadedModel { model: imported.model, warnings, properties: path.with_extension("props"), files })
 }

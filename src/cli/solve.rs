@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 /// What to solve and how.
 #[derive(Clone, Debug, Args)]
 pub struct SolveArguments {
-    /// A directory written by dynabs-compile, or a .tra file with .sta and .lab beside it.
+    /// A directory written by dynabs-compile, a .tra file with .sta and .lab beside it, or a .drn, .umb or .dynabs file.
     path: PathBuf,
 
     /// A property in PRISM's syntax, or a .props file; repeatable. Default: the .props file of the model.

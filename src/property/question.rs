@@ -57,6 +57,17 @@ impl Property {
         Self { name: Some(name.into()), ..self }
     }
 
+    /// The text of the same question about another path formula, which this crate need not understand.
+    pub fn with_path(&self, path: &str) -> String {
+        let name = self.name.as_ref().map(|name| format!("\"{name}\": ")).unwrap_or_default();
+        match &self.question {
+            Question::Value(optimum) => format!("{name}{optimum}=? [ {path} ]"),
+            // PRISM has no `Pmaxmin>=p […]`.
+            Question::Verdict(optimum, threshold) => format!("{name}({optimum}=? [ {path} ]){threshold}"),
+            Question::ForAll(threshold) => format!("{name}P{threshold} [ {path} ]"),
+        }
+    }
+
     /// What the property means for a kind of model.
     ///
     /// `P>=p` asks for all policies and natures, hence for `Pminmin ≥ p`; likewise `P<=p` for
@@ -99,16 +110,7 @@ fn resolve_optimum(optimum: Optimum, kind: ModelKind) -> Result<Resolution, Prop
 
 impl fmt::Display for Property {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(name) = &self.name {
-            write!(f, "\"{name}\": ")?;
-        }
-        let path = &self.path;
-        match &self.question {
-            Question::Value(optimum) => write!(f, "{optimum}=? [ {path} ]"),
-            // PRISM has no `Pmaxmin>=p […]`.
-            Question::Verdict(optimum, threshold) => write!(f, "({optimum}=? [ {path} ]){threshold}"),
-            Question::ForAll(threshold) => write!(f, "P{threshold} [ {path} ]"),
-        }
+        f.write_str(&self.with_path(&self.path.to_string()))
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a run was, in one JSON file: the same for the same input.
 
 use super::hashing::sha256_hex;
+use super::row_states::RowStatesReport;
 use crate::abstraction::Abstraction;
 use crate::formats::prism::RAISED_LOWER_BOUND;
 use crate::numeric::{Rational, from_decimal, to_f64};
@@ -56,6 +57,9 @@ pub struct Manifest {
     pub initial_model_state: Option<u32>,
     /// The lower layer, if there is one.
     pub stabilizer: Option<LayerReport>,
+    /// The model of the files `rows.*`, if they are written.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub row_states: Option<RowStatesReport>,
     /// What a lower bound of 0 is written as in `model.tra`.
     pub prism_lower_bound: f64,
     /// What that can change.
@@ -157,6 +161,7 @@ impl Manifest {
             initial_state: problem.initial_state.clone(),
             initial_model_state: problem.initial_cell.map(|cell| abstraction.state_of_cell[cell.index()]),
             stabilizer: LayerReport::new(problem),
+            row_states: None,
             prism_lower_bound: RAISED_LOWER_BOUND,
             prism_lower_bound_note: lower_bound_note(problem),
             samples: problem.noise.samples.len() as u64,

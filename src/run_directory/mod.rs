@@ -3,11 +3,13 @@
 mod hashing;
 mod manifest;
 mod open;
+mod row_states;
 mod staging;
 mod write;
 
 pub use hashing::{HashingWriter, sha256_hex, sha256_of_file};
 pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile, ProbabilityReport};
 pub use open::{OpenError, Run};
+pub use row_states::RowStatesReport;
 pub use staging::{RunDirectoryError, Staging};
 pub use write::{NATIVE_MODEL, WriteOptions, write_run};

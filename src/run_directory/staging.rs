@@ -2,6 +2,8 @@
 
 use super::hashing::HashingWriter;
 use super::manifest::{Manifest, OutputFile};
+use crate::formats::WriteError;
+use crate::formats::row_states::EncodingError;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -40,18 +42,14 @@ pub enum RunDirectoryError {
         /// The free space in MiB.
         free_mib: u64,
     },
-    /// The model is beyond what PRISM reads.
+    /// The model cannot be written in a format.
     #[error(
-        "the explicit model has {states} states, {choices} choices and {transitions} transitions; PRISM reads at most 2147483647 of each\n  Leave out the explicit files with --no-tra, use a coarser partition, or a smaller U or U'."
+        "{0}\n  Leave out the explicit files with --no-tra, or use --encoding rows, a coarser partition, or a smaller U or U'."
     )]
-    TooLargeForPrism {
-        /// The number of states.
-        states: u64,
-        /// The number of choices.
-        choices: u64,
-        /// The number of transitions.
-        transitions: u64,
-    },
+    Format(#[from] WriteError),
+    /// The model or its property has no encoding with row states.
+    #[error(transparent)]
+    Encoding(#[from] EncodingError),
     /// Reading or writing failed.
     #[error("{path}: {error}")]
     Io {

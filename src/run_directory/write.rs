@@ -1,20 +1,24 @@
 //! Writing all files of a run.
 
 use super::manifest::Manifest;
+use super::row_states::RowStatesReport;
 use super::staging::{RunDirectoryError, Staging};
 use crate::abstraction::Abstraction;
-use crate::formats::native;
-use crate::formats::prism::{MAX_COUNT, TraWriter, write_lab, write_sta};
+use crate::formats::row_states::RowStates;
+use crate::formats::umb::Compression;
+use crate::formats::{Encoding, Format, ModelWriter, native};
 use crate::progress::Progress;
 use crate::spec::{Document, Problem};
 use std::io::Write;
 use std::path::Path;
 
 /// What to write and what may be replaced.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct WriteOptions {
-    /// Leave out `model.tra`, `model.sta` and `model.lab`.
-    pub no_tra: bool,
+    /// The formats to write the model in, besides the native one.
+    pub formats: Vec<Format>,
+    /// How choices are written in these formats; files with row states are called `rows` and not `model`.
+    pub encoding: Encoding,
     /// Replace an earlier run.
     pub force: bool,
 }
@@ -28,12 +32,12 @@ pub(super) const PROBLEM: &str = "problem.json";
 /// The name of the noise samples in a run's directory.
 const NOISE: &str = "noise.csv";
 
-/// Writes the directory `target`: PRISM's files, the native model, the property, the problem, the samples, the manifest.
+/// Writes the directory `target`: the model in the formats asked for, the native model, the property, the problem, the samples, the manifest.
 ///
 /// Returns the manifest with the list of files. Either all files appear or none.
 ///
 /// # Errors
-/// [`RunDirectoryError`] if the place is taken, the disk too small, the model beyond PRISM, or writing fails.
+/// [`RunDirectoryError`] if the place is taken, the disk too small, the model beyond a format, or writing fails.
 pub fn write_run(
     target: &Path,
     document: &Document,
@@ -44,23 +48,31 @@ pub fn write_run(
     progress: &dyn Progress,
 ) -> Result<Manifest, RunDirectoryError> {
     let model = &abstraction.model;
-    let size = model.size();
-    if !options.no_tra && size.states.max(size.choices).max(size.transitions) > MAX_COUNT {
-        return Err(RunDirectoryError::TooLargeForPrism {
-            states: size.states,
-            choices: size.choices,
-            transitions: size.transitions,
-        });
-    }
+    let encoded = match options.encoding {
+        Encoding::Rows => Some(RowStates::new(model)?),
+        Encoding::Plain => None,
+    };
+    let (stem, explicit) = encoded.as_ref().map_or(("model", model), |encoded| ("rows", &encoded.model));
+    let formats = Format::ALL.into_iter().filter(|format| options.formats.contains(format));
+    // The native file is always written, with all its choices.
+    let formats = formats.filter(|&format| format != Format::Native);
+    let writers: Vec<_> = formats
+        .map(|format| ModelWriter::new(explicit, format, Compression::Gzip))
+        .collect::<Result<_, _>>()?;
     let mut staging = Staging::begin(target, options.force)?;
-    if !options.no_tra {
-        let tra = TraWriter::new(model);
-        staging.require_space(tra.bytes())?;
-        progress.start("model.tra", tra.bytes());
-        staging.write("model.tra", |out| tra.write(out, progress))?;
-        progress.finish();
-        staging.write("model.sta", |out| write_sta(model, out))?;
-        staging.write("model.lab", |out| write_lab(model, out))?;
+    for writer in &writers {
+        staging.require_space(writer.bytes())?;
+        for (i, extension) in writer.extensions().iter().enumerate() {
+            let name = format!("{stem}.{extension}");
+            progress.start(&name, if i == 0 { writer.bytes() } else { 0 });
+            staging.write(&name, |out| writer.write(extension, out, progress))?;
+            progress.finish();
+        }
+    }
+    if let Some(encoded) = encoded.as_ref().filter(|_| !writers.is_empty()) {
+        let property = encoded.translate(&abstraction.property)?;
+        staging.write("rows.props", |out| writeln!(out, "{property}"))?;
+        manifest.row_states = Some(RowStatesReport::new(encoded, property));
     }
     staging.write(NATIVE_MODEL, |out| native::write(model, out))?;
     staging.write("model.props", |out| writeln!(out, "{}", abstraction.property))?;

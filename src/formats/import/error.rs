@@ -3,6 +3,7 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use crate::formats::native::NativeError;
 use crate::imdp::{ImdpError, MemoryError, StateId};
 
 /// A place in a file.
@@ -93,6 +94,14 @@ pub enum ImportError {
         /// What is there.
         found: String,
     },
+    /// A file of the native format is not as it should be.
+    #[error("{}: {error}", path.display())]
+    Native {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        error: NativeError,
+    },
     /// The model does not fit into memory.
     #[error(transparent)]
     Memory(#[from] MemoryError),
@@ -102,6 +111,11 @@ pub enum ImportError {
 }
 
 impl ImportError {
+    /// Whether the system failed, and not the file.
+    pub fn is_io(&self) -> bool {
+        matches!(self, Self::Io { .. } | Self::Native { error: NativeError::Io(_), .. })
+    }
+
     /// Wraps an error of the system about a file.
     pub(in crate::formats) fn io(path: &Path, source: std::io::Error) -> Self {
         Self::Io { path: path.to_owned(), source }

@@ -9,4 +9,4 @@ mod read;
 mod write;
 
 pub use read::{import, import_with_progress};
-pub use write::{MAX_COUNT, RAISED_LOWER_BOUND, TraWriter, write_lab, write_sta};
+pub use write::{MAX_COUNT, RAISED_LOWER_BOUND, TraWriter, check_names, write_lab, write_sta};

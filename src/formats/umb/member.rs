@@ -24,6 +24,12 @@ pub(super) const CHOICE_ACTIONS: ActionMembers = ActionMembers {
     strings: "actions/choices/strings.bin",
 };
 
+pub(super) const BRANCH_ACTIONS: ActionMembers = ActionMembers {
+    values: "actions/branches/values.bin",
+    mapping: "actions/branches/string-mapping.bin",
+    strings: "actions/branches/strings.bin",
+};
+
 /// The group of annotations that are labels.
 pub(super) const APS: &str = "aps";
 /// The group of our own annotations.

@@ -25,6 +25,8 @@
 //! The bytes are a function of the model and of the compression: no time, no user, a fixed order.
 
 mod member;
+mod read;
 mod write;
 
+pub use read::{import, import_with_progress};
 pub use write::{Compression, UmbWriter};

@@ -13,6 +13,7 @@ use crate::progress::Progress;
 use actions::Actions;
 use archive::TarStream;
 use flate2::GzBuilder;
+use std::collections::HashSet;
 use std::io::{self, BufWriter, Write};
 
 /// Arrays are handed on in pieces of this many bytes.
@@ -230,12 +231,13 @@ impl<'a> UmbWriter<'a> {
 
 /// A tiny positive number that is not a bound of the model, if it has lower bounds of 0.
 fn raised_lower_bound(model: &IntervalMdp) -> Option<f64> {
-    let bounds = || model.rows().iter().flat_map(|row| row.lower);
-    if !bounds().any(|&lower| lower == 0.0) {
+    let mut lower = model.rows().iter().flat_map(|row| row.lower);
+    if !lower.any(|&lower| lower == 0.0) {
         return None;
     }
-    let taken: std::collections::HashSet<u64> =
-        bounds().filter(|&&lower| lower <= RAISED_LOWER_BOUND).map(|lower| lower.to_bits()).collect();
+    let bounds = model.rows().iter().flat_map(|row| row.lower.iter().chain(row.upper));
+    let taken: HashSet<u64> =
+        bounds.filter(|&&bound| bound <= RAISED_LOWER_BOUND).map(|bound| bound.to_bits()).collect();
     let mut raised = RAISED_LOWER_BOUND;
     while taken.contains(&raised.to_bits()) {
         raised = raised.next_down();
