@@ -10,6 +10,9 @@ use case::{Case, Expected, Kind, for_every_case};
 use certified::certified;
 use dynabs::formats::native;
 use dynabs::formats::prism::{self, TraWriter};
+use dynabs::formats::row_states::RowStates;
+use dynabs::formats::umb::Compression;
+use dynabs::formats::{Format, ModelWriter};
 use dynabs::imdp::IntervalMdp;
 use dynabs::numeric::{Rational, from_dyadic};
 use dynabs::property::{Property, Verdict};
@@ -87,6 +90,44 @@ fn native_files_are_solved() {
         let again = native::read(&path).unwrap();
         assert_eq!(again, *model, "{}", case.name);
         check(case, &again, "native", 0.0);
+    });
+}
+
+#[test]
+fn files_of_other_formats_are_solved() {
+    for_every_case(|case, model, directory| {
+        for format in [Format::Drn, Format::Umb] {
+            let path = directory.join("case").with_extension(format.extension());
+            let writer = ModelWriter::new(model, format, Compression::Gzip).unwrap();
+            writer.write(format.extension(), &mut std::fs::File::create(&path).unwrap(), &()).unwrap();
+            let again = format.import(&path, &mut |_| {}).unwrap().model;
+            assert_eq!(again, *model, "{} as {format}", case.name);
+            case.check(&again, &format.to_string(), 0.0);
+        }
+    });
+}
+
+#[test]
+fn models_with_row_states_have_the_same_values() {
+    for_every_case(|case, model, _| {
+        // Slow ones take more than twice as long with twice the states on the way.
+        if case.name.starts_with("slow") {
+            return;
+        }
+        let encoded = RowStates::new(model).unwrap();
+        for values in case.values.iter().filter(|values| !values.path.starts_with('X')) {
+            for (operator, exact) in &values.of {
+                let property: Property = format!("P{operator}=? [ {} ]", values.path).parse().unwrap();
+                let text = encoded.translate(&property).unwrap();
+                let at = format!("{}, with row states: {text}", case.name);
+                let found = bounds(&encoded.model, &text, &at).0;
+                for (exact, (lower, upper)) in exact.split(' ').zip(found) {
+                    let exact: Rational = exact.parse().unwrap();
+                    let (low, high) = (from_dyadic(lower).unwrap(), from_dyadic(upper).unwrap());
+                    assert!(low <= exact && exact <= high, "{at}: {lower} ≤ {exact} ≤ {upper}");
+                }
+            }
+        }
     });
 }
 

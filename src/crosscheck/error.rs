@@ -14,7 +14,7 @@ use std::io;
 pub enum CrosscheckError {
     /// There is nothing of this name.
     #[error(
-        "{path}: found nothing; expected a run directory, a .tra or .dynabs file, results in JSON or a reference file"
+        "{path}: found nothing; expected a run directory, a .tra, .drn, .umb or .dynabs file, results in JSON or a reference file"
     )]
     Missing {
         /// The path.
@@ -38,17 +38,9 @@ pub enum CrosscheckError {
         /// What the system said.
         error: io::Error,
     },
-    /// Explicit files are refused.
+    /// The file of a model is refused.
     #[error(transparent)]
     Import(#[from] ImportError),
-    /// A native model is refused.
-    #[error("{path}: {error}")]
-    Native {
-        /// The path.
-        path: String,
-        /// Why.
-        error: NativeError,
-    },
     /// The problem of a run directory is refused.
     #[error(transparent)]
     Problem(#[from] Diagnostic),
@@ -118,7 +110,7 @@ impl CrosscheckError {
         let missing = |error: &io::Error| error.kind() == io::ErrorKind::NotFound;
         match self {
             Self::Io { error, .. } | Self::Import(ImportError::Io { source: error, .. }) => !missing(error),
-            Self::Native { error: NativeError::Io(error), .. } => !missing(error),
+            Self::Import(ImportError::Native { error: NativeError::Io(error), .. }) => !missing(error),
             _ => false,
         }
     }

@@ -2,7 +2,7 @@
 
 use super::{CrosscheckError, PolicyFile, Record, RecordedResult, Reference, Sizes, Values};
 use crate::abstraction::compile;
-use crate::formats::{native, prism};
+use crate::formats::Format;
 use crate::imdp::IntervalMdp;
 use crate::property::{Property, parse_properties};
 use crate::run_directory::Manifest;
@@ -31,10 +31,10 @@ pub fn open(path: &Path) -> Result<Record, CrosscheckError> {
         return Err(CrosscheckError::Missing { path: name });
     } else {
         match path.extension().and_then(|extension| extension.to_str()) {
-            Some("tra" | "dynabs") => open_model(path)?,
+            _ if Format::of_path(path).is_some() => open_model(path)?,
             Some("json") => open_json(path)?,
             _ => {
-                let expected = "a directory, or a file that ends in .tra, .dynabs or .json";
+                let expected = "a directory, or a file that ends in .tra, .drn, .umb, .dynabs or .json";
                 return Err(CrosscheckError::Unusable { path: name, found: "another file".into(), expected });
             }
         }
@@ -88,13 +88,10 @@ fn open_directory(directory: &Path) -> Result<Record, CrosscheckError> {
 
 /// A model and the properties beside it.
 fn open_model(path: &Path) -> Result<Record, CrosscheckError> {
-    let (model, warnings) = if path.extension().is_some_and(|extension| extension == "dynabs") {
-        let refuse = |error| CrosscheckError::Native { path: path.display().to_string(), error };
-        (native::read(path).map_err(refuse)?, vec![])
-    } else {
-        let imported = prism::import(path, None, None)?;
-        (imported.model, imported.warnings.iter().map(|w| format!("{}: {w}", path.display())).collect())
-    };
+    let format = Format::of_path(path).unwrap_or(Format::Prism);
+    let imported = format.import(path, &mut |_| {})?;
+    let warnings = imported.warnings.iter().map(|warning| format!("{}: {warning}", path.display())).collect();
+    let model = imported.model;
     let beside = path.with_extension("props");
     let properties = if beside.exists() { read_properties(&beside)? } else { vec![] };
     Ok(Record { notes: warnings, ..Record::of_model("", model, properties) })

@@ -80,6 +80,8 @@ struct PendingChoice {
     /// Its line, from 0.
     line: u64,
     action: Option<u32>,
+    /// It is called by its index.
+    is_index: bool,
 }
 
 struct Body<'a> {
@@ -161,9 +163,9 @@ impl Body<'_> {
         if name.is_empty() {
             return Err(cursor.fault_at(start, "the name of an action").into());
         }
-        self.indices &= name == number.to_string();
+        let is_index = name == number.to_string();
         let action = (name != UNNAMED).then(|| self.assembly.action(name));
-        self.choice = Some(PendingChoice { number, line: cursor.line, action });
+        self.choice = Some(PendingChoice { number, line: cursor.line, action, is_index });
         if cursor.skip(b" [") {
             return Err(cursor.fault_at(cursor.offset() - 1, "no rewards, which are not supported").into());
         }
@@ -223,6 +225,7 @@ impl Body<'_> {
         if self.notes.is_deadlock(state) {
             return Ok(());
         }
+        self.indices &= choice.is_index;
         let row = self.rows.row(0);
         self.assembly.push(state, hash_row(row), row, choice.action).map_err(|error| match error {
             AssemblyError::Memory(error) => LineError::Import(error.into()),

@@ -6,9 +6,14 @@ use std::collections::HashMap;
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// How much is read from the file at once.
 const BUFFER: usize = 1 << 17;
+
+/// How many bytes of small members are kept at most, and of each of them.
+const KEPT: u64 = 64 << 20;
+const SMALL: u64 = 16 << 20;
 
 /// A UMB archive: where each member is.
 #[derive(Debug)]
@@ -19,11 +24,16 @@ pub(super) struct Archive {
 }
 
 /// Where a member is in the uncompressed archive.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Member {
     offset: u64,
     bytes: u64,
+    /// Kept from the first pass if it is small: to get there again, all before it would be decompressed again.
+    content: Option<Arc<[u8]>>,
 }
+
+/// One member, read from its start.
+pub(super) type MemberReader = BufReader<Box<dyn Read>>;
 
 impl Archive {
     /// Finds the members, decompressing everything once.
@@ -63,12 +73,12 @@ impl Archive {
     fn list<R: Read>(&mut self, source: R) -> Result<R, ImportError> {
         let damaged = |error| Self::damaged(&self.path, &error);
         let mut tar = tar::Archive::new(source);
-        let mut end = 0;
+        let (mut end, mut kept) = (0, 0);
         for entry in tar.entries().map_err(damaged)? {
-            let entry = entry.map_err(damaged)?;
+            let mut entry = entry.map_err(damaged)?;
             let name = String::from_utf8_lossy(&entry.path_bytes()).into_owned();
             let name = name.strip_prefix("./").unwrap_or(&name).to_owned();
-            let member = Member { offset: entry.raw_file_position(), bytes: entry.size() };
+            let mut member = Member { offset: entry.raw_file_position(), bytes: entry.size(), content: None };
             if member.offset.checked_add(member.bytes).is_none() || member.offset < end {
                 return Err(Self::refuse(
                     &self.path,
@@ -83,6 +93,14 @@ impl Archive {
                 other => {
                     let found = format!("{name} of type {other:?}");
                     return Err(Self::refuse(&self.path, "regular files and directories", found));
+                }
+            }
+            if self.gzip && member.bytes <= SMALL && kept + member.bytes <= KEPT {
+                let mut content = vec![];
+                entry.read_to_end(&mut content).map_err(damaged)?;
+                if content.len() as u64 == member.bytes {
+                    kept += member.bytes;
+                    member.content = Some(content.into());
                 }
             }
             if self.members.insert(name.clone(), member).is_some() {
@@ -120,19 +138,23 @@ impl Archive {
     }
 
     /// Reads one member; none if there is no such member.
-    pub fn read(&self, name: &str) -> Result<Option<impl Read + use<>>, ImportError> {
-        let Some(&Member { offset, bytes }) = self.members.get(name) else { return Ok(None) };
+    pub fn read(&self, name: &str) -> Result<Option<MemberReader>, ImportError> {
+        let Some(Member { offset, bytes, content }) = self.members.get(name) else { return Ok(None) };
+        if let Some(content) = content {
+            let source: Box<dyn Read> = Box::new(io::Cursor::new(Arc::clone(content)));
+            return Ok(Some(BufReader::new(source)));
+        }
         let io = |error| ImportError::io(&self.path, error);
         let mut file = File::open(&self.path).map_err(io)?;
         let source: Box<dyn Read> = if self.gzip {
             let mut unpacked = MultiGzDecoder::new(BufReader::with_capacity(BUFFER, file));
-            let before = io::copy(&mut unpacked.by_ref().take(offset), &mut io::sink());
+            let before = io::copy(&mut unpacked.by_ref().take(*offset), &mut io::sink());
             before.map_err(|error| Self::damaged(&self.path, &error))?;
-            Box::new(unpacked)
+            Box::new(unpacked.take(*bytes))
         } else {
-            file.seek(SeekFrom::Start(offset)).map_err(io)?;
-            Box::new(file)
+            file.seek(SeekFrom::Start(*offset)).map_err(io)?;
+            Box::new(file.take(*bytes))
         };
-        Ok(Some(BufReader::with_capacity(BUFFER, source.take(bytes))))
+        Ok(Some(BufReader::with_capacity(BUFFER, source)))
     }
 }

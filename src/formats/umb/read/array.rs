@@ -1,13 +1,13 @@
 //! Arrays, read entry by entry with the position for messages at hand.
 
-use super::archive::Archive;
+use super::archive::{Archive, MemberReader};
 use crate::formats::import::{ImportError, Position};
 use std::io::Read;
 use std::path::PathBuf;
 
 /// An array in a member of an archive.
 pub(super) struct Array {
-    source: Box<dyn Read>,
+    source: MemberReader,
     path: PathBuf,
     name: String,
     /// The number of entries read so far.
@@ -29,7 +29,7 @@ impl Array {
         }
         let source = archive.read(name)?;
         Ok(source.map(|source| Self {
-            source: Box::new(source),
+            source,
             path: archive.path().to_owned(),
             name: name.to_owned(),
             read: 0,
