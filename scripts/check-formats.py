@@ -158,8 +158,12 @@ def check_model(model, tools, out, report):
     if prism := tools["PRISM"]:
         written = out / "prism.umb"
         _, text = run(prism, "-importmodel", plain.with_suffix(".umb"), "-ex", "-exportmodel", written)
-        same, last = dynabs.diff(plain.with_suffix(".tra"), written) if written.exists() else (False, error_in(text))
-        report.line("dynabs reads the .umb that PRISM writes", last, same)
+        # Not the same model: PRISM leaves out the label "deadlock" where it is empty.
+        if written.exists():
+            found = dynabs.values(written, plain.with_suffix(".props"), out / "values.txt")
+            report.compare("dynabs reads the .umb that PRISM writes", found, expected)
+        else:
+            report.line("PRISM writes .umb", error_in(text), False)
     if stormpy := tools["Storm"]:
         loaded = load_storm(stormpy, plain.with_suffix(".umb"))
         written = out / "storm.umb"

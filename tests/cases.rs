@@ -102,7 +102,7 @@ fn files_of_other_formats_are_solved() {
             writer.write(format.extension(), &mut std::fs::File::create(&path).unwrap(), &()).unwrap();
             let again = format.import(&path, &mut |_| {}).unwrap().model;
             assert_eq!(again, *model, "{} as {format}", case.name);
-            case.check(&again, &format.to_string(), 0.0);
+            check(case, &again, &format.to_string(), 0.0);
         }
     });
 }

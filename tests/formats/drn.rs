@@ -72,7 +72,8 @@ fn mistakes_are_refused_with_their_place() {
         ("@nr_states\n5", "@placeholders\n$x : 1\n@nr_states\n5", "10:1", &["@nr_states", "`@placeholders`"]),
         ("@nr_states\n5", "@nr_states\n0", "11:1", &["between 1 and"]),
         ("@nr_states\n5", "@nr_states\n6", "42:1", &["6 states", "found 5"]),
-        ("@nr_states\n5", "@nr_states\n4", "38:7", &["no state after 3"]),
+        ("@nr_states\n5", "@nr_states\n4", "32:3", &["destination below 4"]),
+        ("\t\t4 : [1, 1]\n", "\t\t4 : [1, 1]\nstate 5\n", "43:7", &["no state after 4"]),
         ("@nr_choices\n7", "@nr_choices\n8", "42:1", &["8 choices", "found 7"]),
         ("@model", "@modal", "14:1", &["@model"]),
         ("state 1 goal", "state 3 goal", "22:7", &["state 1", "`3`"]),
@@ -127,6 +128,13 @@ fn sums_are_those_of_the_decimals() {
 #[test]
 fn damaged_text_never_panics() {
     let original = TINY.as_bytes();
+    // One place for thousands of files.
+    let scratch = tempfile::tempdir().unwrap();
+    let path = scratch.path().join("m.drn");
+    let import_text = |text: &[u8]| {
+        std::fs::write(&path, text).unwrap();
+        import(&path)
+    };
     for cut in 0..original.len() {
         // Cut short it is refused, unless all states are there: a state may have no choices.
         if let Ok(imported) = import_text(&original[..cut]) {
