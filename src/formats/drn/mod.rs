@@ -17,13 +17,13 @@
 //! @model
 //! state 0 init
 //! //! values 3 -1
-//! 	action a_0
-//! 		0 : [0, 0.5]
-//! 		1 : [0.25, 1]
+//!     action a_0
+//!         0 : [0, 0.5]
+//!         1 : [0.25, 1]
 //! state 1 reached
 //! //! values 4 -1
-//! 	action __NOLABEL__
-//! 		1 : [1, 1]
+//!     action __NOLABEL__
+//!         1 : [1, 1]
 //! ```
 //!
 //! The format has no place for labels that no state has, for the order of labels, for variables, and for

@@ -90,12 +90,11 @@ impl<'a> Assembler<'a> {
     fn continue_with(&mut self, choice: &ParsedChoice) -> Result<(), Box<Fault>> {
         let line = u64::from(choice.line);
         match self.last {
+            Some((state, number)) if state == choice.state && choice.number == number + 1 => {}
             Some((state, number)) if state == choice.state => {
-                if choice.number != number + 1 {
-                    let column = state.to_string().len() + 2;
-                    let expected = format!("choice {} of state {state}, or a later state", number + 1);
-                    return Err(Fault::new(line, column, expected, choice.number.to_string()));
-                }
+                let column = state.to_string().len() + 2;
+                let expected = format!("choice {} of state {state}, or a later state", number + 1);
+                return Err(Fault::new(line, column, expected, choice.number.to_string()));
             }
             Some((state, _)) if state > choice.state => {
                 let expected = format!("state {state} or a later one");
