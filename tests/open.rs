@@ -17,7 +17,7 @@ fn write(directory: &Path, model: &str, sets: &[String]) {
     let problem = Problem::from_document(&document).unwrap();
     let abstraction = compile(&problem, &()).unwrap();
     let manifest = Manifest::new(&document, "", &problem, &abstraction);
-    let options = WriteOptions { no_tra: true, force: true };
+    let options = WriteOptions { force: true, ..WriteOptions::default() };
     write_run(directory, &document, &problem, &abstraction, manifest, options, &()).unwrap();
 }
 
