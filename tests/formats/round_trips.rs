@@ -36,8 +36,11 @@ fn raising_exceeds_one(model: &IntervalMdp) -> bool {
     model.rows().iter().any(exceeds)
 }
 
+/// A choice: its name and its transitions.
+type Choice = (Option<String>, Vec<(u32, f64, f64)>);
+
 /// All choices of all states, written out, with their names.
-fn expanded(model: &IntervalMdp) -> Vec<Vec<(Option<String>, Vec<(u32, f64, f64)>)>> {
+fn expanded(model: &IntervalMdp) -> Vec<Vec<Choice>> {
     let mut choice = 0;
     let of_state = |state: u32| {
         let mut of_state = vec![];
