@@ -4,9 +4,10 @@ use super::results::{PropertyResult, exit_code, table};
 use super::solve::{LimitArguments, Wanted, answer};
 use super::summary::summary;
 use super::{Bars, CliError, print, use_threads};
-use crate::abstraction::compile;
+use crate::abstraction::{Abstraction, compile};
 use crate::formats::{Encoding, Format};
-use crate::run_directory::{Manifest, Staging, WriteOptions, write_run};
+use crate::run_directory::{Manifest, PruningReport, Staging, WriteOptions, write_run};
+use crate::solver::Pruned;
 use crate::spec::{Document, Problem, SetArgument, json_schema, starter_model};
 use clap::Parser;
 use serde_json::{Value, json};
@@ -53,6 +54,11 @@ pub struct Arguments {
     #[arg(long)]
     solve: bool,
 
+    /// Solve the task and keep only the actions that an optimal policy takes: a small model with the same value of
+    /// this one property. Implies --solve.
+    #[arg(long)]
+    prune: bool,
+
     /// Do everything but write files.
     #[arg(long)]
     dry_run: bool,
@@ -82,9 +88,12 @@ pub struct Arguments {
     schema: bool,
 }
 
+/// Without a bound on the steps, how close the bounds must be before it is decided what matters.
+const PRUNING_EPSILON: f64 = 1e-9;
+
 const AFTER_HELP: &str = "\
 Exit codes: 0 done, 2 bad input or usage, 4 I/O or internal error;
-with --solve also 1 the threshold is missed, 3 undecided (limit, interrupt, bounds straddle the threshold).
+with --solve or --prune also 1 the threshold is missed, 3 undecided (limit, interrupt, bounds straddle the threshold).
 
 Examples:
   dynabs-compile --init my-model.json
@@ -141,15 +150,26 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
     let problem = Problem::from_document(&document)?;
     let mut phases = vec![("model file", start.elapsed())];
 
-    let abstraction =
+    let mut abstraction =
         compile(&problem, &*bars).map_err(|error| CliError::of_abstraction(&error, &document.name))?;
     phases.extend(&abstraction.phases);
+    // Until here there is nothing to clean up, and nothing to print.
+    bars.catch_interrupts()?;
+    let mut results = Vec::new();
+    let mut pruning = None;
+    if arguments.prune {
+        let solving = Instant::now();
+        let (result, report) = prune(&mut abstraction, &bars)?;
+        results.push(result);
+        notes.push(format!("{}; {}", report.kept, report.scope));
+        pruning = Some(report);
+        phases.push(("pruning", solving.elapsed()));
+    }
     let mut manifest = Manifest::new(&document, &source, &problem, &abstraction);
     manifest.set.clone_from(&arguments.set);
     manifest.warnings.append(&mut notes);
+    manifest.pruning = pruning;
 
-    // Until here there is nothing to clean up, and nothing to print.
-    bars.catch_interrupts()?;
     if let Some(output) = arguments.output.as_deref().filter(|_| !arguments.dry_run) {
         let writing = Instant::now();
         let options = WriteOptions {
@@ -160,8 +180,7 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
         manifest = write_run(output, &document, &problem, &abstraction, manifest, options, &*bars)?;
         phases.push(("files", writing.elapsed()));
     }
-    let mut results = Vec::new();
-    if arguments.solve {
+    if arguments.solve && !arguments.prune {
         let limits = LimitArguments::default();
         let solving = Instant::now();
         let (model, property) = (&abstraction.model, &abstraction.property);
@@ -170,6 +189,19 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
     }
     report(arguments, &manifest, &phases, &results)?;
     Ok(exit_code(&results))
+}
+
+/// Replaces the model by what an optimal policy needs of it.
+fn prune(abstraction: &mut Abstraction, bars: &Bars) -> Result<(PropertyResult, PruningReport), CliError> {
+    let start = Instant::now();
+    let property = &abstraction.property;
+    let limits = LimitArguments::of_epsilon(PRUNING_EPSILON);
+    let pruned = limits.with_options(bars, |options| Pruned::new(&abstraction.model, property, options));
+    let pruned = pruned.map_err(|error| CliError::Failure(format!("--prune: {property}: {error}")))?;
+    let result = PropertyResult::new(property, &pruned.after, start.elapsed());
+    let report = PruningReport::new(property, abstraction.model.size(), &pruned);
+    abstraction.model = pruned.model;
+    Ok((result, report))
 }
 
 fn read_model(path: &Path) -> Result<String, CliError> {
@@ -230,7 +262,7 @@ fn report(
             .map_err(|error| CliError::Failure(format!("the manifest has no JSON form: {error}")))?;
         if let Value::Object(object) = &mut object {
             object.insert("seconds".to_owned(), Value::Object(times));
-            if arguments.solve {
+            if !results.is_empty() {
                 object.insert("results".to_owned(), json!(results));
             }
         }

@@ -142,22 +142,40 @@ pub(super) fn answer(
     bars: &Bars,
 ) -> Result<(Answer, PropertyResult), CliError> {
     let start = Instant::now();
-    let progress =
-        |iteration, gap: f64| bars.note(|| format!("iteration {iteration}, bounds {gap:.1e} apart"));
-    let options = SolverOptions {
-        epsilon: limits.epsilon,
-        max_iterations: limits.max_iterations.unwrap_or(u64::MAX),
-        time_limit: limits.time_limit.map(Duration::from_secs_f64),
-        interrupt: Some(bars.interrupt()),
-        progress: Some(&progress),
-        policy: wanted.policy,
-        evidence: wanted.evidence,
-    };
-    let answer = Answer::new(model, property, &options);
-    bars.finish();
+    let answer = limits.with_options(bars, |options| {
+        Answer::new(
+            model,
+            property,
+            &SolverOptions { policy: wanted.policy, evidence: wanted.evidence, ..*options },
+        )
+    });
     let answer = answer.map_err(|error| CliError::Input(format!("{property}: {error}")))?;
     let result = PropertyResult::new(property, &answer, start.elapsed());
     Ok((answer, result))
+}
+
+impl LimitArguments {
+    /// No limits, and bounds this close.
+    pub(super) fn of_epsilon(epsilon: f64) -> Self {
+        Self { epsilon, ..Self::default() }
+    }
+
+    /// Computes something within these limits, with the current gap on display.
+    pub(super) fn with_options<T>(&self, bars: &Bars, compute: impl FnOnce(&SolverOptions<'_>) -> T) -> T {
+        let progress =
+            |iteration, gap: f64| bars.note(|| format!("iteration {iteration}, bounds {gap:.1e} apart"));
+        let result = compute(&SolverOptions {
+            epsilon: self.epsilon,
+            max_iterations: self.max_iterations.unwrap_or(u64::MAX),
+            time_limit: self.time_limit.map(Duration::from_secs_f64),
+            interrupt: Some(bars.interrupt()),
+            progress: Some(&progress),
+            policy: false,
+            evidence: false,
+        });
+        bars.finish();
+        result
+    }
 }
 
 impl Default for LimitArguments {

@@ -8,6 +8,7 @@ mod choices;
 mod labels;
 mod memory;
 mod model;
+mod restrict;
 mod rows;
 
 pub use choices::{Choices, ChoicesBuilder, RowRange};
@@ -15,6 +16,7 @@ pub use fixedbitset::FixedBitSet as StateSet;
 pub use labels::{Labels, StateVariable, StateVariables, VariableValues};
 pub use memory::{MemoryError, available_memory, require_memory};
 pub use model::{ActionNames, ImdpError, IntervalMdp, ModelKind, Parts, Size};
+pub use restrict::restrict;
 pub use rows::{Row, RowError, Rows};
 
 /// A state of an interval MDP, numbered from 0.

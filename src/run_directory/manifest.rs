@@ -1,6 +1,7 @@
 //! What a run was, in one JSON file: the same for the same input.
 
 use super::hashing::sha256_hex;
+use super::pruning::PruningReport;
 use super::row_states::RowStatesReport;
 use crate::abstraction::Abstraction;
 use crate::formats::prism::RAISED_LOWER_BOUND;
@@ -60,6 +61,9 @@ pub struct Manifest {
     /// The model of the files `rows.*`, if they are written.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub row_states: Option<RowStatesReport>,
+    /// What pruning left of the model; all sizes above are those of what is left.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pruning: Option<PruningReport>,
     /// What a lower bound of 0 is written as in `model.tra`.
     pub prism_lower_bound: f64,
     /// What that can change.
@@ -162,6 +166,7 @@ impl Manifest {
             initial_model_state: problem.initial_cell.map(|cell| abstraction.state_of_cell[cell.index()]),
             stabilizer: LayerReport::new(problem),
             row_states: None,
+            pruning: None,
             prism_lower_bound: RAISED_LOWER_BOUND,
             prism_lower_bound_note: lower_bound_note(problem),
             samples: problem.noise.samples.len() as u64,

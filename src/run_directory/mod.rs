@@ -3,6 +3,7 @@
 mod hashing;
 mod manifest;
 mod open;
+mod pruning;
 mod row_states;
 mod staging;
 mod write;
@@ -10,6 +11,7 @@ mod write;
 pub use hashing::{HashingWriter, sha256_hex, sha256_of_file};
 pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile, ProbabilityReport};
 pub use open::{OpenError, Run};
+pub use pruning::PruningReport;
 pub use row_states::RowStatesReport;
 pub use staging::{RunDirectoryError, Staging};
 pub use write::{NATIVE_MODEL, WriteOptions, write_run};

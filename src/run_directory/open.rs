@@ -72,6 +72,14 @@ pub enum OpenError {
         /// The path of the file.
         path: String,
     },
+    /// The model was pruned.
+    #[error(
+        "{path}: found a pruned model; expected the whole one, whose actions are compared with the law\n  Compile it without --prune: the value and the policy are the same."
+    )]
+    Pruned {
+        /// The directory.
+        path: String,
+    },
     /// The system does not let us read a file.
     #[error("{path}: {error}")]
     Io {
@@ -109,6 +117,9 @@ impl Run {
     pub fn open(directory: &Path, progress: &dyn Progress) -> Result<Self, OpenError> {
         let shown = directory.display().to_string();
         let manifest = read_manifest(directory)?;
+        if manifest.pruning.is_some() {
+            return Err(OpenError::Pruned { path: shown });
+        }
         let verified = |name: &str| read_verified(directory, name, &manifest);
         let path = directory.join(PROBLEM);
         let text = String::from_utf8_lossy(&verified(PROBLEM)?).into_owned();

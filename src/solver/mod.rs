@@ -28,6 +28,7 @@ mod graph;
 mod guess;
 mod options;
 mod policy;
+mod prune;
 mod query;
 mod range_optimum;
 mod solution;
@@ -37,6 +38,7 @@ mod unbounded;
 pub use answer::{Answer, AnswerError};
 pub use options::{SolverOptions, Status};
 pub use policy::Policy;
+pub use prune::{PruneError, Pruned};
 pub use query::{Query, SolveError};
 pub use solution::{Solution, ValueBounds};
 
