@@ -2,6 +2,7 @@
 
 use super::controller::{ControllerArguments, run as controller};
 use super::convert::{ConvertArguments, run as convert};
+use super::crosscheck::{CrosscheckArguments, run as crosscheck};
 use super::diff::{DiffArguments, run as diff};
 use super::simulate::{SimulateArguments, run as simulate};
 use super::solve::{SolveArguments, run as solve};
@@ -36,12 +37,14 @@ enum Command {
     Convert(ConvertArguments),
     /// Compare two run directories, models, results or reference files; exit code 1 on a difference.
     Diff(DiffArguments),
+    /// Ask PRISM or Storm the same, and compare the values of all states; exit code 1 if one disagrees.
+    Crosscheck(CrosscheckArguments),
 }
 
 const AFTER_HELP: &str = "\
 Exit codes: 0 done (and every property true), 1 a property is false at an initial state, a comparison differs,
 a certificate is rejected or a simulation contradicts the promise, 2 bad input or usage, 3 undecided (limit, interrupt,
-or the bounds straddle the threshold), 4 I/O or internal error (also an input outside U).";
+the bounds straddle the threshold, or an engine gave no answer), 4 I/O or internal error (also an input outside U).";
 
 /// Runs the tool.
 ///
@@ -56,5 +59,6 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
         Command::Verify(arguments) => verify(arguments),
         Command::Convert(arguments) => convert(arguments),
         Command::Diff(arguments) => diff(arguments),
+        Command::Crosscheck(arguments) => crosscheck(arguments),
     }
 }

@@ -4,6 +4,8 @@ pub mod check;
 pub mod compile;
 pub mod controller;
 pub mod convert;
+pub mod crosscheck;
+mod crosscheck_table;
 pub mod diff;
 mod error;
 mod exports;

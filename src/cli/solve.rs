@@ -71,7 +71,7 @@ pub struct LimitArguments {
     time_limit: Option<f64>,
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub(super) fn positive(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|x| x.is_finite() && *x > 0.0);
     number.ok_or_else(|| "expected a positive number".to_owned())
 }
@@ -85,7 +85,7 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     let start = Instant::now();
     let loaded = load(&arguments.path, arguments.explicit, &bars)?;
     let reading = start.elapsed();
-    let properties = properties(arguments, &loaded.properties)?;
+    let properties = properties(&arguments.properties, &loaded.properties)?;
     let outputs = [&arguments.values, &arguments.policy, &arguments.certificate];
     if outputs.into_iter().any(Option::is_some) && properties.len() != 1 {
         let found = properties.len();
@@ -184,8 +184,9 @@ impl Default for LimitArguments {
     }
 }
 
-fn properties(arguments: &SolveArguments, beside: &Path) -> Result<Vec<Property>, CliError> {
-    if arguments.properties.is_empty() {
+/// The properties given by `-p`, or those of the file beside the model.
+pub(super) fn properties(given: &[String], beside: &Path) -> Result<Vec<Property>, CliError> {
+    if given.is_empty() {
         if !beside.exists() {
             return Err(CliError::Input(format!(
                 "{}: found no such file; expected properties there or with -p, for example -p 'Pmaxmin=? [ F \"goal\" ]'",
@@ -195,7 +196,7 @@ fn properties(arguments: &SolveArguments, beside: &Path) -> Result<Vec<Property>
         return read_properties(beside);
     }
     let mut properties = Vec::new();
-    for text in &arguments.properties {
+    for text in given {
         if Path::new(text).extension().is_some_and(|extension| extension == "props") {
             properties.extend(read_properties(Path::new(text))?);
         } else {

@@ -1,7 +1,7 @@
 //! One step of robust value iteration in plain floating point: to weigh actions, not to prove anything.
 
 use crate::imdp::{IntervalMdp, RowId, StateId};
-use crate::property::{Query, QueryKind, Resolution};
+use crate::property::{Query, QueryKind};
 
 /// A query whose actions are to be weighed.
 pub(super) struct Backup<'a> {
@@ -40,10 +40,21 @@ impl<'a> Backup<'a> {
 
     /// The values with one more step left.
     pub fn step(&self, values: &[f64]) -> Vec<f64> {
+        let best: fn(f64, f64) -> f64 =
+            if self.query.resolution.policy_maximises() { f64::max } else { f64::min };
+        self.step_by(values, |state, row_value| self.model.choices().rows(state).map(row_value).reduce(best))
+    }
+
+    /// The values with one more step left if `decide` says what a state is worth, given what its rows are worth.
+    ///
+    /// A state about which it says nothing keeps its value.
+    pub fn step_by(
+        &self,
+        values: &[f64],
+        decide: impl Fn(StateId, &dyn Fn(RowId) -> f64) -> Option<f64>,
+    ) -> Vec<f64> {
         let weights: Vec<f64> =
             (0..self.model.rows().len() as RowId).map(|row| self.row_value(row, values)).collect();
-        let maximise = matches!(self.query.resolution, Resolution::Pmaxmin | Resolution::Pmaxmax);
-        let best: fn(f64, f64) -> f64 = if maximise { f64::max } else { f64::min };
         let next = (0..self.model.num_states()).map(|state| {
             if let QueryKind::Until { safe, goal, .. } = &self.query.kind {
                 if goal.contains(state) {
@@ -52,8 +63,7 @@ impl<'a> Backup<'a> {
                     return 0.0;
                 }
             }
-            let rows = self.model.choices().rows(state as StateId).map(|row| weights[row as usize]);
-            rows.reduce(best).unwrap_or(values[state])
+            decide(state as StateId, &|row| weights[row as usize]).unwrap_or(values[state])
         });
         next.collect()
     }

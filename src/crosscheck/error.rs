@@ -86,6 +86,12 @@ pub enum CrosscheckError {
         /// The action.
         action: String,
     },
+    /// What a strategy leaves of a model is no model.
+    #[error("the engine's strategy: {error}")]
+    Strategy {
+        /// Why.
+        error: crate::imdp::ImdpError,
+    },
     /// There is no model to make a reference of.
     #[error("{path}: found no model; a reference is made of a run directory or a model file")]
     NoModel {

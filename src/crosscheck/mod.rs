@@ -4,6 +4,8 @@
 //! [`Reference`], which is a summary of a model small enough to be kept under version control. [`diff`]
 //! compares all that both sides have, says where they differ and by how much, worst first, and notes what
 //! only one side has.
+//!
+//! [`engines`] asks other people's solvers what we computed, and compares.
 
 mod actions;
 mod backup;
@@ -16,6 +18,7 @@ mod diff_models;
 mod diff_policies;
 mod diff_values;
 mod digest;
+pub mod engines;
 mod error;
 mod open;
 mod paired_choices;

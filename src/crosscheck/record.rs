@@ -86,8 +86,17 @@ impl Record {
 
 /// The answer to a property with the solver's defaults.
 pub(super) fn answer(model: &IntervalMdp, property: &Property) -> Result<Answer, CrosscheckError> {
+    answer_within(model, property, &SolverOptions::default())
+}
+
+/// The answer to a property.
+pub(super) fn answer_within(
+    model: &IntervalMdp,
+    property: &Property,
+    options: &SolverOptions<'_>,
+) -> Result<Answer, CrosscheckError> {
     let property_text = || property.to_string();
-    Answer::new(model, property, &SolverOptions::default()).map_err(|error| match error {
+    Answer::new(model, property, options).map_err(|error| match error {
         AnswerError::Property(error) => CrosscheckError::Property { property: property_text(), error },
         AnswerError::Solve(error) => CrosscheckError::Solve { property: property_text(), error },
     })

@@ -1,0 +1,54 @@
+//! Other people's solvers: finding them, running them, reading back what they computed.
+//!
+//! An engine runs as a program of its own in a temporary directory, with a limit on its time and memory, and is
+//! ended with everything that it started when it exceeds them or the user interrupts. Its
+//! answer counts only if it ended by itself, without an error, and left one probability for every state:
+//! everything else is an [`EngineFailure`].
+
+mod cross_check;
+mod engine;
+mod failure;
+mod find;
+mod finding;
+mod judge;
+mod prism;
+mod process;
+mod process_group;
+mod question;
+mod raised;
+mod storm;
+mod strategy;
+mod values;
+
+pub use cross_check::{CrossCheckOptions, cross_check};
+pub use engine::Engine;
+pub use failure::{EngineFailure, EngineMissing};
+pub use finding::{Agreement, Finding, StrategyFinding};
+pub use prism::Prism;
+pub use process::RunLimits;
+pub use question::{EngineAnswer, Question, Reply, Subject};
+pub use raised::raised;
+pub use storm::Storm;
+pub use strategy::Strategy;
+
+use std::io;
+use std::path::Path;
+use tempfile::TempDir;
+
+/// A directory for one run, gone with its value.
+fn scratch() -> io::Result<TempDir> {
+    tempfile::Builder::new().prefix("dynabs-").tempdir()
+}
+
+/// Refuses to begin a file that will not fit.
+fn require_space(file: &Path, bytes: u64) -> io::Result<()> {
+    let free = fs4::available_space(file.parent().unwrap_or(file))?;
+    if bytes <= free {
+        return Ok(());
+    }
+    let (needed, free) = (bytes.div_ceil(1 << 20), free >> 20);
+    Err(io::Error::new(
+        io::ErrorKind::StorageFull,
+        format!("it needs {needed} MiB, {free} MiB are free; set TMPDIR to a larger disk"),
+    ))
+}
