@@ -45,7 +45,7 @@ def main():
     start = time.monotonic()
     with open(sys.argv[1]) as file:
         request = json.load(file)
-    model = stormpy.build_model_from_drn[stormpy.Interval](request["model"])
+    model = stormpy.build_model_from_umb(request["model"])
     environment = stormpy.environments.default(model)
     solver = environment.solver().min_max()
     solver.precision = stormpy.Rational(request["precision"])

@@ -119,7 +119,7 @@ impl Ours {
     /// Compares with the values of the model as it is or, as a whole, with those of what the engine was given.
     fn judge(&self, reply: &EngineAnswer, allowed: Tolerance, notes: &mut Vec<String>) -> Judgement {
         let plain = judge(&reply.values, &self.answer.values, allowed);
-        let Some(raised) = self.raised.as_ref().filter(|_| reply.raised) else {
+        let Some(raised) = &self.raised else {
             if plain.agreement == Agreement::Undecided {
                 notes.push(format!("our own bounds are not closer: {}", self.answer.solution.status));
             }
@@ -153,7 +153,7 @@ impl Ours {
         let query = &self.question.query;
         let event = |value: f64| if query.complement { 1.0 - value } else { value };
         let values: Vec<f64> = reply.values.iter().map(|&value| event(value)).collect();
-        let model = subject.raised.filter(|_| reply.raised).unwrap_or(subject.model);
+        let model = subject.raised.unwrap_or(subject.model);
         let next = Backup::new(model, query).step(&values);
         let upper = &self.answer.solution.values.upper;
         (0..values.len()).all(|s| {
@@ -173,7 +173,7 @@ impl Ours {
     ) -> Result<(), CrosscheckError> {
         let Some(strategy) = &reply.strategy else { return Ok(()) };
         let query = &self.question.query;
-        let model = subject.raised.filter(|_| reply.raised).unwrap_or(subject.model);
+        let model = subject.raised.unwrap_or(subject.model);
         let attained = strategy.attained(model, query, options)?;
         let short = |s: usize| {
             let event = |value: f64| if query.complement { 1.0 - value } else { value };

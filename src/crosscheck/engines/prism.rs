@@ -164,7 +164,6 @@ fn read_answer(
     Ok(EngineAnswer {
         values: parse_values(&values, subject.model.num_states())?,
         strategy: read(strategy)?.map(|text| Strategy::parse(&text, subject.model)).transpose()?,
-        raised: subject.raised.is_some(),
         time: ended.time,
         peak_mib: ended.peak_mib,
     })

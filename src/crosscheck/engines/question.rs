@@ -24,7 +24,7 @@ pub struct Question {
 pub struct Subject<'a> {
     /// The model.
     pub model: &'a IntervalMdp,
-    /// The model with lower bounds of 0 raised to what engines accept, if there are any.
+    /// The model as engines get it: with lower bounds of 0, which they refuse, raised; `None` if there are none.
     pub raised: Option<&'a IntervalMdp>,
     /// Its explicit files, `.tra`, `.sta` and `.lab`, if they can be read as they are.
     pub files: Option<&'a PathBuf>,
@@ -37,8 +37,6 @@ pub struct EngineAnswer {
     pub values: Vec<f64>,
     /// The strategy, if the engine gives one for this question.
     pub strategy: Option<Strategy>,
-    /// Whether it computed on the model with raised lower bounds.
-    pub raised: bool,
     /// How long it took, reading the model included.
     pub time: Duration,
     /// The most memory it had, in MiB, where the system tells.

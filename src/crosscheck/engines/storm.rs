@@ -4,13 +4,13 @@ use super::find::find;
 use super::process::{Ended, RunLimits, run};
 use super::values::decode_values;
 use super::{Engine, EngineAnswer, EngineFailure, EngineMissing, Question, Reply, Strategy, Subject};
-use crate::formats::drn::DrnWriter;
+use crate::formats::umb::{Compression, UmbWriter};
 use crate::imdp::{ActionNames, IntervalMdp, Labels, ModelKind, Parts, StateSet, StateVariables};
 use crate::property::{Query, QueryKind};
 use serde::Deserialize;
 use serde_json::json;
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
@@ -78,55 +78,34 @@ impl Storm {
         }
     }
 
-    /// Asks about one model: all questions in one run.
-    fn ask_about(
+    /// Asks until a question has no answer; the outcomes of the first questions, at least one.
+    fn ask_in_one_run(
         &self,
-        model: &IntervalMdp,
-        raised: bool,
-        questions: &[&Question],
+        subject: &Subject<'_>,
+        questions: &[Question],
         limits: &RunLimits<'_>,
     ) -> Vec<Result<EngineAnswer, EngineFailure>> {
-        let fails = |failure: &dyn Fn() -> EngineFailure| questions.iter().map(|_| Err(failure())).collect();
-        let directory = match stage(model, questions) {
+        let directory = match stage(subject.model, questions) {
             Ok(directory) => directory,
-            Err(Unstaged::Names(reason)) => {
-                return fails(&|| EngineFailure::Unsuitable { reason: reason.clone() });
-            }
-            Err(Unstaged::Io(path, error)) => {
-                let error = || io::Error::new(error.kind(), error.to_string());
-                return fails(&|| EngineFailure::Files { path: path.clone(), error: error() });
-            }
+            Err(failure) => return vec![Err(failure)],
         };
         let at = |name: String| directory.path().join(name);
         let mut command = Command::new(&self.python);
         command.current_dir(directory.path()).args(["-B", "storm.py", "questions.json"]);
-        let answered = || (0..questions.len()).filter(|i| at(format!("{i}.json")).exists()).count();
-        let ran = run(&mut command, limits, false, answered);
-        let mut failure = None;
-        let (said, peak_mib) = match ran {
-            Ok(Ended { ref stdout, ref stderr, peak_mib, .. }) => (format!("{stdout}{stderr}"), peak_mib),
-            Err(why) => {
-                failure = Some(why);
-                (String::new(), None)
-            }
-        };
-        let mut answers = Vec::with_capacity(questions.len());
+        let is_answered = |i: &usize| at(format!("{i}.json")).exists();
+        let ran = run(&mut command, limits, false, || (0..questions.len()).filter(is_answered).count());
+        let peak_mib = ran.as_ref().ok().and_then(|ended| ended.peak_mib);
+        let mut outcomes = Vec::with_capacity(questions.len());
         for (i, question) in questions.iter().enumerate() {
+            if !is_answered(&i) {
+                let no_answer = |ended: Ended| EngineFailure::NoAnswer { said: ended.said() };
+                outcomes.push(Err(ran.map_or_else(|failure| failure, no_answer)));
+                break;
+            }
             let files = [at(format!("{i}.json")), at(format!("{i}.values")), at(format!("{i}.strategy"))];
-            answers.push(if files[0].exists() {
-                read_answer(model, raised, question, &files, peak_mib)
-            } else {
-                // The one being computed is the one that failed; those behind it were never asked.
-                Err(failure.take().unwrap_or_else(|| EngineFailure::NoAnswer {
-                    said: if said.is_empty() {
-                        "the run ended before this question".into()
-                    } else {
-                        said.clone()
-                    },
-                }))
-            });
+            outcomes.push(read_answer(subject, question, &files, peak_mib));
         }
-        answers
+        outcomes
     }
 }
 
@@ -144,37 +123,24 @@ impl Engine for Storm {
     }
 
     fn ask(&self, subject: &Subject<'_>, questions: &[Question], limits: &RunLimits<'_>) -> Vec<Reply> {
-        // Lower bounds of 0 are refused without a bound on the steps only.
-        let needs_raised = |question: &&Question| question.steps().is_none() && subject.raised.is_some();
-        let (raised, exact): (Vec<&Question>, Vec<&Question>) = questions.iter().partition(needs_raised);
-        let ask = |model, is_raised, questions: &[&Question]| {
-            if questions.is_empty() { vec![] } else { self.ask_about(model, is_raised, questions, limits) }
-        };
-        let mut of_exact = ask(subject.model, false, &exact).into_iter();
-        let mut of_raised = ask(subject.raised.unwrap_or(subject.model), true, &raised).into_iter();
-        let unasked = || Err(EngineFailure::NoAnswer { said: String::new() });
-        let reply = |question| {
-            let answers = if needs_raised(&question) { &mut of_raised } else { &mut of_exact };
-            Reply { version: Some(self.version.clone()), outcome: answers.next().unwrap_or_else(unasked) }
-        };
-        questions.iter().map(reply).collect()
+        let mut outcomes = Vec::with_capacity(questions.len());
+        // A question that ends a run takes no other with it.
+        while outcomes.len() < questions.len() {
+            outcomes.extend(self.ask_in_one_run(subject, &questions[outcomes.len()..], limits));
+        }
+        let reply = |outcome| Reply { version: Some(self.version.clone()), outcome };
+        outcomes.into_iter().map(reply).collect()
     }
 }
 
-/// Why the files for a run were not written.
-enum Unstaged {
-    Names(String),
-    Io(PathBuf, io::Error),
-}
-
 /// A directory with the script, the model and the questions.
-fn stage(model: &IntervalMdp, questions: &[&Question]) -> Result<TempDir, Unstaged> {
-    let failed = |path: &Path, error| Unstaged::Io(path.to_path_buf(), error);
+fn stage(model: &IntervalMdp, questions: &[Question]) -> Result<TempDir, EngineFailure> {
+    let failed = |path: &Path, error| EngineFailure::Files { path: path.to_path_buf(), error };
     let directory = super::scratch().map_err(|error| failed(&std::env::temp_dir(), error))?;
     let at = |name: &str| directory.path().join(name);
     let asked: Vec<_> = questions.iter().enumerate().map(|(i, q)| formula(i, &q.query)).collect();
     let request = json!({
-        "model": "model.drn",
+        "model": "model.umb",
         "precision": format!("{PRECISION:e}"),
         "questions": asked.iter().zip(questions).map(|((formula, _), question)| json!({
             "formula": formula,
@@ -186,17 +152,19 @@ fn stage(model: &IntervalMdp, questions: &[&Question]) -> Result<TempDir, Unstag
     for (name, text) in [("storm.py", SCRIPT), ("questions.json", &request.to_string())] {
         fs::write(at(name), text).map_err(|error| failed(&at(name), error))?;
     }
+    let unsuitable = |reason| EngineFailure::Unsuitable { reason };
     let labels = asked.into_iter().flat_map(|(_, labels)| labels);
-    let labelled = with_labels(model, labels).map_err(Unstaged::Names)?;
-    let writer = DrnWriter::new(&labelled).map_err(|error| Unstaged::Names(error.to_string()))?;
-    let drn = at("model.drn");
+    let labelled = with_labels(model, labels).map_err(unsuitable)?;
+    // It raises lower bounds of 0 by itself.
+    let writer = UmbWriter::new(&labelled).map_err(|error| unsuitable(error.to_string()))?;
+    let umb = at("model.umb");
     let write = || {
-        super::require_space(&drn, writer.bytes())?;
-        let mut out = BufWriter::with_capacity(1 << 18, File::create(&drn)?);
-        writer.write(&mut out, &())?;
+        super::require_space(&umb, writer.bytes())?;
+        let mut out = BufWriter::with_capacity(1 << 18, File::create(&umb)?);
+        writer.write(&mut out, Compression::None, &())?;
         out.flush()
     };
-    write().map_err(|error| failed(&drn, error))?;
+    write().map_err(|error| failed(&umb, error))?;
     Ok(directory)
 }
 
@@ -255,8 +223,7 @@ struct Report {
 }
 
 fn read_answer(
-    model: &IntervalMdp,
-    raised: bool,
+    subject: &Subject<'_>,
     question: &Question,
     [report, values, strategy]: &[PathBuf; 3],
     peak_mib: Option<u64>,
@@ -269,14 +236,14 @@ fn read_answer(
     if let Some(said) = report.error {
         return Err(EngineFailure::Refused { said });
     }
-    let mut values = decode_values(&read(values)?, model.num_states())?;
+    let mut values = decode_values(&read(values)?, subject.model.num_states())?;
     if question.query.complement {
         values.iter_mut().for_each(|value| *value = 1.0 - *value);
     }
     let strategy = match strategy.exists() {
-        true => Some(Strategy::parse(&String::from_utf8_lossy(&read(strategy)?), model)?),
+        true => Some(Strategy::parse(&String::from_utf8_lossy(&read(strategy)?), subject.model)?),
         false => None,
     };
     let time = Duration::try_from_secs_f64(report.seconds).unwrap_or_default();
-    Ok(EngineAnswer { values, strategy, raised, time, peak_mib })
+    Ok(EngineAnswer { values, strategy, time, peak_mib })
 }
