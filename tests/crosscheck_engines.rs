@@ -310,6 +310,84 @@ fn ctrl_c_ends_the_engine_and_leaves_nothing() {
     assert!(!mark.exists(), "the engine outlived Ctrl-C");
 }
 
+/// One engine that agrees is not all of them.
+#[test]
+fn a_missing_engine_is_not_passed_over() {
+    let scratch = Scratch::new();
+    let mut command = Command::cargo_bin("dynabs-check").unwrap();
+    command.arg("crosscheck").arg(scratch.path("model.tra")).args(["-p", BOUNDED, "--json", "--prism"]);
+    command.arg(scratch.replay(LOG, VALUES, STRATEGY)).env("DYNABS_PYTHON", "/nothing/python");
+    let output = command.output().unwrap();
+    assert_eq!(output.status.code(), Some(3));
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(json["findings"][0]["agreement"], "agrees");
+    assert_eq!((&json["missing"][0], &json["agree"]), (&"Storm".into(), &false.into()));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("pip install stormpy"));
+}
+
+/// A Python whose stormpy does this.
+fn ask_storm(scratch: &Scratch, script: &str) -> (i32, String) {
+    let python = scratch.engine(&format!("if [ \"$1\" = -c ]; then echo stormpy 2.0.0; exit; fi\n{script}"));
+    let mut command = Command::cargo_bin("dynabs-check").unwrap();
+    command
+        .arg("crosscheck")
+        .arg(scratch.path("model.tra"))
+        .args(["-p", BOUNDED, "--with", "storm", "--json"]);
+    command.args(["--timeout", "2", "--python"]).arg(python).env("TMPDIR", scratch.temporary.path());
+    let output = command.output().unwrap();
+    assert!(fs::read_dir(scratch.temporary.path()).unwrap().next().is_none());
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let note = json["findings"][0]["notes"][0].as_str().unwrap_or_default().to_owned();
+    (output.status.code().unwrap(), note)
+}
+
+/// 0.46, 0.6, 1 and 0 as little-endian doubles.
+const STORM_VALUES: &str = r"printf '\161\075\012\327\243\160\335\077\063\063\063\063\063\063\343\077\000\000\000\000\000\000\360\077\000\000\000\000\000\000\000\000' >0.values";
+const STORM_REPORT: &str = r#"echo '{"seconds": 0.1, "error": null}' >0.json"#;
+
+#[test]
+fn a_broken_storm_never_agrees() {
+    let scratch = Scratch::new();
+    let (code, note) = ask_storm(&scratch, &format!("{STORM_VALUES}\n{STORM_REPORT}"));
+    assert_eq!((code, note.as_str()), (0, ""));
+    for (script, expected) in [
+        ("echo 'RuntimeError: no' >&2; exit 1".to_owned(), "exit code 1 and said: RuntimeError: no"),
+        (STORM_VALUES.to_owned(), "without an answer"),
+        (STORM_REPORT.to_owned(), "0.values"),
+        (
+            format!("{STORM_VALUES}\necho x >>0.values\n{STORM_REPORT}"),
+            "expected one for each of the 4 states",
+        ),
+        (format!("{STORM_VALUES}\necho garbage >0.json"), "without an answer"),
+        (
+            r#"echo '{"seconds": 0.1, "error": "not supported"}' >0.json"#.to_owned(),
+            "it reports: not supported",
+        ),
+        (format!("{STORM_VALUES}\nsleep 30"), "did not answer within 2 s"),
+        (format!("{STORM_VALUES}\nkill -9 $$"), "killed by signal 9"),
+    ] {
+        let (code, note) = ask_storm(&scratch, &script);
+        assert!(code == 3 && note.contains(expected), "{script}: {code} {note}");
+    }
+    let wrong = STORM_VALUES.replacen(r"\161", r"\162", 1).replacen(r"\160", r"\150", 1);
+    assert_eq!(ask_storm(&scratch, &format!("{wrong}\n{STORM_REPORT}")).0, 1);
+}
+
+/// Step-bounded values of interval models are wrong in stormpy 1.
+#[test]
+fn an_old_stormpy_is_refused() {
+    let scratch = Scratch::new();
+    let python = scratch.engine("echo stormpy 1.12.0");
+    let mut command = Command::cargo_bin("dynabs-check").unwrap();
+    command
+        .arg("crosscheck")
+        .arg(scratch.path("model.tra"))
+        .args(["-p", BOUNDED, "--with", "storm", "--python"]);
+    let output = command.arg(python).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("has stormpy 1.12.0, which is too old"));
+}
+
 /// Lower bounds of 0 are refused by PRISM: it gets a copy of the files with the smallest that matters to nobody.
 #[test]
 fn files_with_lower_bounds_of_zero_are_rewritten() {

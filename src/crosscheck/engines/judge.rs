@@ -25,11 +25,13 @@ pub(super) fn tolerance(question: &Question, model: &IntervalMdp, stopping: &str
     match question.steps() {
         Some(steps) => {
             let absolute = BOUNDED.max(4.0 * steps as f64 * (longest + 2.0) * UNIT_ROUNDOFF);
-            let why = format!("{absolute:.0e}: rounding in {steps} steps");
+            let why = format!("{absolute:.0e} with a bound on the steps: rounding only");
             (Tolerance { absolute, relative: 0.0 }, why)
         }
         None => {
-            let why = format!("{UNBOUNDED:.0e} of the value: it {stopping}, which bounds no error");
+            let why = format!(
+                "{UNBOUNDED:.0e} of the value without a bound on the steps: it {stopping}, which bounds no error"
+            );
             (Tolerance { absolute: NEGLIGIBLE, relative: UNBOUNDED }, why)
         }
     }

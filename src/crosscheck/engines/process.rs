@@ -47,6 +47,10 @@ pub(super) fn run(
     progress: impl Fn() -> usize,
 ) -> Result<Ended, EngineFailure> {
     let start = Instant::now();
+    let is_interrupted = || limits.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed));
+    if is_interrupted() {
+        return Err(EngineFailure::Interrupted);
+    }
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut group = Group::spawn(command).map_err(|error| {
         let command = PathBuf::from(command.get_program());
@@ -69,7 +73,7 @@ pub(super) fn run(
         if now != seen {
             (since, seen) = (Instant::now(), now);
         }
-        if limits.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+        if is_interrupted() {
             break Err(EngineFailure::Interrupted);
         }
         if since.elapsed() >= limits.timeout {
