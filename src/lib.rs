@@ -22,6 +22,7 @@
 //! | it is written for others | [`formats`], [`run_directory`] | PRISM's explicit files, a manifest |
 //! | it is solved | [`property`], [`solver`] | bounds on the robust value, a policy |
 //! | the result is checked again | [`verify`] | a certificate, accepted in exact arithmetic |
+//! | others are asked the same | [`crosscheck`] | PRISM's and Storm's values of every state, and where they differ |
 //! | the policy is refined | [`controller`] | a feedback [`Controller`](controller::Controller), its closed loop, C code |
 //!
 //! What makes it fast: an action steers to a target point, so its distribution over cells does not depend
