@@ -101,7 +101,7 @@ fn mebibytes(text: &str) -> Result<u64, String> {
 /// # Errors
 /// [`CliError`], which knows its exit code.
 pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
-    let (engines, missing) = find_engines(arguments)?;
+    let Engines { found, missing } = find_engines(arguments)?;
     let bars = Arc::new(Bars::new(arguments.quiet));
     let loaded = load(&arguments.path, false, &bars)?;
     let properties = properties(&arguments.properties, &loaded.properties)?;
@@ -120,7 +120,7 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
         memory_mib,
         interrupt: Some(bars.interrupt()),
     };
-    let engines: Vec<&dyn Engine> = engines.iter().map(|engine| &**engine).collect();
+    let engines: Vec<&dyn Engine> = found.iter().map(|engine| &**engine).collect();
     let findings = LimitArguments::of_epsilon(arguments.epsilon).with_options(&bars, |solver| {
         cross_check(&subject, &properties, &engines, &CrossCheckOptions { solver: *solver, limits })
     })?;
@@ -147,20 +147,25 @@ fn say(arguments: &CrosscheckArguments, lines: &[String], head: &str) {
     }
 }
 
-/// The engines to ask and those that are not there; an error if there is none at all.
-fn find_engines(
-    arguments: &CrosscheckArguments,
-) -> Result<(Vec<Box<dyn Engine>>, Vec<EngineMissing>), CliError> {
-    let (mut engines, mut missing): (Vec<Box<dyn Engine>>, Vec<EngineMissing>) = (vec![], vec![]);
+/// The engines to ask, and those that are not there.
+#[derive(Default)]
+struct Engines {
+    found: Vec<Box<dyn Engine>>,
+    missing: Vec<EngineMissing>,
+}
+
+/// Looks for the engines; an error if there is none at all.
+fn find_engines(arguments: &CrosscheckArguments) -> Result<Engines, CliError> {
+    let Engines { mut found, mut missing } = Engines::default();
     if arguments.with != With::Storm {
         match Prism::find(arguments.prism.as_deref()) {
-            Ok(prism) => engines.push(Box::new(prism)),
+            Ok(prism) => found.push(Box::new(prism)),
             Err(error) => missing.push(error),
         }
     }
     if arguments.with != With::Prism {
         match Storm::find(arguments.python.as_deref()) {
-            Ok(storm) => engines.push(Box::new(storm)),
+            Ok(storm) => found.push(Box::new(storm)),
             Err(error) => missing.push(error),
         }
     }
@@ -169,11 +174,11 @@ fn find_engines(
         "PRISM" => arguments.prism.is_some(),
         _ => arguments.python.is_some(),
     };
-    if engines.is_empty() || missing.iter().any(|missing| given(missing.engine)) {
+    if found.is_empty() || missing.iter().any(|missing| given(missing.engine)) {
         let texts: Vec<_> = missing.iter().map(ToString::to_string).collect();
         return Err(CliError::Input(texts.join("\nerror: ")));
     }
-    Ok((engines, missing))
+    Ok(Engines { found, missing })
 }
 
 /// The `.tra` file of a model that PRISM can read as it is.
