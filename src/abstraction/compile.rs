@@ -1,18 +1,21 @@
 //! The pipeline from problem to interval MDP.
 
 use super::enabled::EnabledActions;
-use super::landings::Landings;
+use super::landings::Placements;
+use super::outcomes::Outcomes;
+use super::pac::PacRows;
 use super::states::{FAILED, REACHED, StateSpace, labels};
 use super::steering::Steering;
 use super::targets::Targets;
-use super::{AbstractionError, pac, reference};
+use super::{AbstractionError, reference};
 use crate::dynamics::FeedbackLaw;
 use crate::imdp::{
-    ActionNames, Choices, ChoicesBuilder, IntervalMdp, ModelKind, Parts, RowRange, StateId, require_memory,
+    ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, ModelKind, Parts, RowRange, Rows, StateId,
 };
 use crate::partition::{CellId, CellKind, Grid};
 use crate::progress::Progress;
 use crate::property::{PathFormula, Property, Resolution, StateFormula, Threshold, ThresholdComparison};
+use crate::solver::{Answer, SolverOptions};
 use crate::spec::{Probabilities, Problem};
 use crate::statistics::Allocation;
 use std::time::{Duration, Instant};
@@ -45,9 +48,12 @@ pub struct Guarantee {
     pub beta: f64,
     /// What the budget was spent on.
     pub budget: Vec<Allocation>,
-    /// The bound on the mass outside the samples' bounding box.
+    /// The bound on the mass outside the window of cells that a row lists.
     pub unseen_mass: f64,
 }
+
+/// How long to look for values by which windows are chosen: a better choice is not worth more.
+const SCOUT_ITERATIONS: u64 = 200;
 
 /// Measures the phases of the pipeline.
 struct Clock {
@@ -79,48 +85,50 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
     let is_pac = matches!(problem.probabilities, Probabilities::Pac { .. });
     let states = state_space(problem);
     let Steering { targets, law, extent, .. } = steering;
-    let tolerance = is_pac.then(|| law.steering_error(&extent));
-    let landings = Landings::new(&problem.noise.samples, grid, &targets, tolerance);
-    // 4 bytes of successor and 16 of bounds per entry, twice while chunks are put together.
-    let entries = targets.len() as u64 * landings.window_volume(grid) as u64;
-    require_memory("the rows of the model", entries * 20 * 2)?;
-    clock.lap("samples");
-
-    progress.start("rows", targets.len() as u64);
-    let (rows, guarantee) = match &problem.probabilities {
-        Probabilities::Pac { beta } => {
-            let built = pac::build(problem, beta, &targets, &landings, &states, progress)?;
-            let guarantee = Guarantee {
-                beta: built.budget.total(),
-                budget: built.budget.allocations().to_vec(),
-                unseen_mass: built.unseen_mass,
-            };
-            (built.rows, Some(guarantee))
-        }
-        Probabilities::Reference { beta_per_interval } => {
-            (reference::build(problem, *beta_per_interval, &targets, &landings, &states, progress), None)
-        }
-    };
-    progress.finish();
-    clock.lap("rows");
-
     let choices = choices(problem, &states, &enabled);
     let blocked = states.select(|state| is_blocked(problem, &states, &choices, state));
-    let warnings = warnings(problem, blocked.count_ones(..));
+    let tolerance = is_pac.then(|| law.steering_error(&extent));
+    let placements = Placements::new(&problem.noise.samples, grid, &targets, tolerance);
+    clock.lap("choices");
+
     let (reached, failed) = outcome_states(problem, &states, is_pac);
-    let model = IntervalMdp::new(Parts {
-        kind: ModelKind::Imdp,
-        rows,
-        choices,
-        actions: ActionNames::OfRow,
-        initial: states.initial(problem.initial_cell, &problem.labels),
-        labels: labels(blocked, reached, failed),
-        variables: states.variables(grid),
-    })?;
+    let property = reach_avoid(problem);
+    let model_of = |rows: Rows| -> Result<IntervalMdp, ImdpError> {
+        IntervalMdp::new(Parts {
+            kind: ModelKind::Imdp,
+            rows,
+            choices: choices.clone(),
+            actions: ActionNames::OfRow,
+            initial: states.initial(problem.initial_cell, &problem.labels),
+            labels: labels(blocked.clone(), reached.clone(), failed.clone()),
+            variables: states.variables(grid),
+        })
+    };
+    let (rows, guarantee) = match &problem.probabilities {
+        Probabilities::Pac { beta, discard } => {
+            let is_lost = |cell| blocked.contains(states.of_cell(cell) as usize);
+            let outcomes = Outcomes::new(&problem.labels, is_lost);
+            let statement = (beta, *discard as usize);
+            let pac = PacRows::new(problem, statement, &targets, placements, &states, &outcomes)?;
+            let rows = pac.rows(progress);
+            clock.lap("rows");
+            let rows = pac.better_rows(&scout(&model_of(rows)?, &property)?, progress);
+            clock.lap("choice of windows");
+            (rows, Some(pac.guarantee()))
+        }
+        Probabilities::Reference { beta_per_interval } => {
+            let rows =
+                reference::build(problem, *beta_per_interval, &targets, placements, &states, progress)?;
+            clock.lap("rows");
+            (rows, None)
+        }
+    };
+    let warnings = warnings(problem, blocked.count_ones(..));
+    let model = model_of(rows)?;
     clock.lap("model");
     Ok(Abstraction {
         model,
-        property: reach_avoid(problem),
+        property,
         state_of_cell: state_of_cell(grid, &states),
         targets,
         law,
@@ -128,6 +136,13 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
         phases: clock.phases,
         warnings,
     })
+}
+
+/// What the task is worth from every state, roughly: never above the value.
+fn scout(model: &IntervalMdp, property: &Property) -> Result<Vec<f64>, AbstractionError> {
+    let options =
+        SolverOptions { max_iterations: SCOUT_ITERATIONS, epsilon: 1e-3, ..SolverOptions::default() };
+    Ok(Answer::new(model, property, &options)?.values.lower)
 }
 
 impl Abstraction {

@@ -4,7 +4,7 @@ use crate::imdp::{ImdpError, MemoryError};
 use crate::statistics::BudgetError;
 
 /// Why a valid problem has no abstraction.
-#[derive(Clone, Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error)]
 pub enum AbstractionError {
     /// No action is enabled in any cell.
     #[error("no action is enabled in any cell")]
@@ -28,6 +28,9 @@ pub enum AbstractionError {
     /// The budget was overspent: a mistake in this program.
     #[error(transparent)]
     Budget(#[from] BudgetError),
+    /// Windows cannot be compared.
+    #[error(transparent)]
+    Scout(#[from] crate::solver::AnswerError),
     /// The result is not an interval MDP: a mistake in this program.
     #[error("the abstraction is not an interval MDP: {0}")]
     Invalid(#[from] ImdpError),

@@ -1,9 +1,9 @@
 //! Where samples land: how often each cell, counted from the target's cell, is hit.
 
-use super::targets::Alignment;
+use super::outcomes::{Outcome, Outcomes};
+use super::placement::Placement;
 use crate::noise::NoiseSamples;
-use crate::numeric::{UNIT_ROUNDOFF, to_f64};
-use crate::partition::{CellId, CellKind, CellLabels, Grid};
+use crate::partition::{CellId, Grid};
 use std::collections::BTreeMap;
 
 /// The cells in which one sample may lie: a box of cell coordinates, one cell unless it is near a face.
@@ -18,7 +18,7 @@ pub struct Spread {
 }
 
 /// How many samples lie for certain, and how many possibly, in a set.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Count {
     /// Samples that are in the set whatever the rounding.
     pub certain: u32,
@@ -31,9 +31,9 @@ pub struct Count {
 pub struct Landing {
     /// Distinct spreads with their numbers of samples, ascending.
     groups: Vec<(Spread, u32)>,
-    /// The bounding box of all spreads.
-    window: Spread,
-    /// The counts of every cell of the window, row-major.
+    /// The cells that `counts` is about: all that some sample may lie in, and more if asked for.
+    table: Spread,
+    /// The counts of every cell of the table, row-major.
     counts: Vec<Count>,
 }
 
@@ -42,90 +42,39 @@ pub struct Landing {
 pub struct RegionCounts {
     /// In goal cells.
     pub goal: Count,
-    /// In unsafe cells or outside the partition.
+    /// In lost cells or outside the partition.
     pub lost: Count,
 }
 
 impl Landing {
-    /// Where `d_a + δ` lands relative to the cell of `d_a`, for targets that all sit alike in their cells.
-    ///
-    /// With `φ` the target's position in its cell and `w` the width, `δ` moves `⌊δ/w + φ⌋` cells. `tolerance`
-    /// bounds, per dimension, how far the true `d_a + η` can be from its computed value; samples closer to
-    /// a face than that (plus the rounding made here) may be on either side. Coordinates beyond the grid
-    /// from every target are cut off just outside it.
-    pub fn of_offsets(
-        samples: &NoiseSamples,
-        grid: &Grid,
-        alignment: &[Alignment],
-        last_cells: &[u32],
-        tolerance: Option<&[f64]>,
-    ) -> Self {
-        let axes: Vec<_> = (0..grid.dimension())
-            .map(|j| AxisSpread {
-                width: to_f64(grid.axes()[j].width()),
-                shift: to_f64(&alignment[j].phase),
-                lowest: -(last_cells[j] as i32) - 1,
-                highest: grid.axes()[j].cells() as i32 - alignment[j].first_cell as i32,
-                tolerance: tolerance.map(|t| t[j] + samples.rounding()[j]),
-            })
-            .collect();
-        Self::collect(samples, &axes)
-    }
-
-    /// Where `d + δ` lands in the grid, for one target point anywhere; coordinates are those of cells.
-    pub fn of_point(samples: &NoiseSamples, grid: &Grid, point: &[f64], tolerance: Option<&[f64]>) -> Self {
-        let axes: Vec<_> = (0..grid.dimension())
-            .map(|j| {
-                let width = to_f64(grid.axes()[j].width());
-                let lower = to_f64(grid.axes()[j].lower());
-                let offset = 2.0 * UNIT_ROUNDOFF * (point[j].abs() + lower.abs());
-                AxisSpread {
-                    width,
-                    shift: (point[j] - lower) / width,
-                    lowest: -1,
-                    highest: grid.axes()[j].cells() as i32,
-                    tolerance: tolerance.map(|t| t[j] + samples.rounding()[j] + offset),
-                }
-            })
-            .collect();
-        Self::collect(samples, &axes)
-    }
-
-    fn collect(samples: &NoiseSamples, axes: &[AxisSpread]) -> Self {
+    /// Where the samples land; the table of counts includes the cells of `cover`.
+    pub fn new(samples: &NoiseSamples, placement: &Placement, cover: Option<&Spread>) -> Self {
         let mut groups: BTreeMap<Spread, u32> = BTreeMap::new();
         for sample in samples.iter() {
-            let (lower, upper) = sample.iter().zip(axes).map(|(&x, axis)| axis.spread(x)).unzip();
-            *groups.entry(Spread { lower, upper }).or_default() += 1;
+            *groups.entry(placement.spread(sample)).or_default() += 1;
         }
-        Self::from_groups(groups.into_iter().collect())
-    }
-
-    fn from_groups(groups: Vec<(Spread, u32)>) -> Self {
-        let mut window = groups.first().map_or(Spread { lower: vec![], upper: vec![] }, |(s, _)| s.clone());
-        for (spread, _) in &groups {
-            for j in 0..spread.lower.len() {
-                window.lower[j] = window.lower[j].min(spread.lower[j]);
-                window.upper[j] = window.upper[j].max(spread.upper[j]);
-            }
-        }
-        let mut counts = vec![Count::default(); window.volume()];
+        let groups: Vec<_> = groups.into_iter().collect();
+        let first = cover.or(groups.first().map(|(spread, _)| spread));
+        let mut table = first.cloned().unwrap_or(Spread { lower: vec![], upper: vec![] });
+        groups.iter().for_each(|(spread, _)| table.include(spread));
+        let mut counts = vec![Count::default(); table.volume()];
         for (spread, number) in &groups {
             let certain = if spread.is_single() { *number } else { 0 };
             spread.for_each(|cell| {
-                let count = &mut counts[window.position(cell)];
+                let count = &mut counts[table.position(cell)];
                 count.certain += certain;
                 count.possible += number;
             });
         }
-        Self { groups, window, counts }
+        Self { groups, table, counts }
     }
 
-    /// The bounding box of the samples, in cells.
-    pub fn window(&self) -> &Spread {
-        &self.window
+    /// The cells that have counts: a box with all samples.
+    pub fn table(&self) -> &Spread {
+        &self.table
     }
 
-    /// The counts of the cells of the window, row-major.
+    /// The counts of the cells of the table, row-major.
     pub fn counts(&self) -> &[Count] {
         &self.counts
     }
@@ -135,17 +84,17 @@ impl Landing {
         &self.groups
     }
 
-    /// How many samples land in goal cells, and how many in unsafe cells or outside, with origin `origin`.
-    pub fn region_counts(&self, origin: &[i32], grid: &Grid, labels: &CellLabels) -> RegionCounts {
+    /// How many samples land in goal cells, and how many in lost cells or outside, with origin `origin`.
+    pub fn region_counts(&self, origin: &[i32], grid: &Grid, outcomes: &Outcomes) -> RegionCounts {
         let mut counts = RegionCounts::default();
         for (spread, number) in &self.groups {
             let (mut goal, mut lost, mut cells) = (0usize, 0usize, 0usize);
             spread.for_each(|cell| {
                 cells += 1;
-                match locate(cell, origin, grid).map(|cell| labels.kind(cell)) {
-                    Some(CellKind::Goal) => goal += 1,
-                    Some(CellKind::Ordinary) => {}
-                    Some(CellKind::Unsafe) | None => lost += 1,
+                match locate(cell, origin, grid).map(|cell| outcomes.of(cell)) {
+                    Some(Outcome::Reached) => goal += 1,
+                    Some(Outcome::Open) => {}
+                    Some(Outcome::Lost) | None => lost += 1,
                 }
             });
             let add = |count: &mut Count, hits: usize| {
@@ -169,34 +118,18 @@ pub(super) fn locate(coordinates: &[i32], origin: &[i32], grid: &Grid) -> Option
     Some(CellId(id))
 }
 
-/// How values along one dimension become cell coordinates.
-struct AxisSpread {
-    width: f64,
-    /// The target's position, in cells.
-    shift: f64,
-    lowest: i32,
-    highest: i32,
-    /// `None` takes the arithmetic at its word.
-    tolerance: Option<f64>,
-}
-
-impl AxisSpread {
-    fn spread(&self, x: f64) -> (i32, i32) {
-        let position = x / self.width + self.shift;
-        let slack = self.tolerance.map_or(0.0, |tolerance| {
-            let rounding = 8.0 * UNIT_ROUNDOFF * ((x / self.width).abs() + self.shift.abs() + 1.0);
-            2.0 * tolerance / self.width + rounding
-        });
-        // Casting saturates, so samples beyond any grid stay beyond it.
-        let index = |position: f64| (position.floor() as i32).clamp(self.lowest, self.highest);
-        (index(position - slack), index(position + slack))
-    }
-}
-
 impl Spread {
     /// The number of cells.
     pub fn volume(&self) -> usize {
         self.lower.iter().zip(&self.upper).map(|(l, u)| (u - l) as usize + 1).product()
+    }
+
+    /// Grows to contain `other`.
+    fn include(&mut self, other: &Self) {
+        for j in 0..self.lower.len() {
+            self.lower[j] = self.lower[j].min(other.lower[j]);
+            self.upper[j] = self.upper[j].max(other.upper[j]);
+        }
     }
 
     fn is_single(&self) -> bool {
@@ -204,14 +137,14 @@ impl Spread {
     }
 
     /// The row-major position of a cell in this box.
-    fn position(&self, cell: &[i32]) -> usize {
+    pub(super) fn position(&self, cell: &[i32]) -> usize {
         (0..cell.len()).fold(0, |position, j| {
             position * ((self.upper[j] - self.lower[j]) as usize + 1) + (cell[j] - self.lower[j]) as usize
         })
     }
 
     /// Visits the cells in row-major order.
-    fn for_each(&self, mut visit: impl FnMut(&[i32])) {
+    pub(super) fn for_each(&self, mut visit: impl FnMut(&[i32])) {
         if self.is_single() {
             return visit(&self.lower);
         }
@@ -228,6 +161,7 @@ impl Spread {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::abstraction::Alignment;
     use crate::numeric::{Rational, from_decimal};
 
     fn line(cells: u32) -> (Grid, Vec<Alignment>) {
@@ -236,12 +170,23 @@ mod tests {
         (grid, vec![Alignment { first_cell: 0, stride: 1, phase: Rational::new(1.into(), 2.into()) }])
     }
 
+    fn offsets(
+        samples: &NoiseSamples,
+        grid: &Grid,
+        alignment: &[Alignment],
+        tolerance: Option<f64>,
+    ) -> Landing {
+        let tolerance = tolerance.map(|t| [t]);
+        let tolerance = tolerance.as_ref().map(|t| t.as_slice());
+        Landing::new(samples, &Placement::of_offsets(samples, grid, alignment, &[9], tolerance), None)
+    }
+
     #[test]
     fn offsets_count_from_the_target() {
         let (grid, alignment) = line(10);
         let samples = NoiseSamples::new(1, vec![0.0, 0.4, -0.4, 0.6, -1.4, 99.0]);
-        let landing = Landing::of_offsets(&samples, &grid, &alignment, &[9], Some(&[1e-12]));
-        assert_eq!(landing.window(), &Spread { lower: vec![-1], upper: vec![10] });
+        let landing = offsets(&samples, &grid, &alignment, Some(1e-12));
+        assert_eq!(landing.table(), &Spread { lower: vec![-1], upper: vec![10] });
         assert_eq!(landing.counts()[0].certain, 1);
         assert_eq!(landing.counts()[1].certain, 3);
         assert_eq!(landing.counts()[2].certain, 1);
@@ -251,11 +196,11 @@ mod tests {
     fn samples_near_a_face_count_on_both_sides() {
         let (grid, alignment) = line(10);
         let samples = NoiseSamples::new(1, vec![0.5, 0.5 + 1e-15, 0.1]);
-        let landing = Landing::of_offsets(&samples, &grid, &alignment, &[9], Some(&[1e-14]));
+        let landing = offsets(&samples, &grid, &alignment, Some(1e-14));
         assert_eq!(landing.counts()[0], Count { certain: 1, possible: 3 });
         assert_eq!(landing.counts()[1], Count { certain: 0, possible: 2 });
         // Taken at its word, the face belongs to the upper cell.
-        let landing = Landing::of_offsets(&samples, &grid, &alignment, &[9], None);
+        let landing = offsets(&samples, &grid, &alignment, None);
         assert_eq!(landing.counts()[1], Count { certain: 2, possible: 2 });
     }
 
@@ -263,9 +208,10 @@ mod tests {
     fn points_and_offsets_agree() {
         let (grid, alignment) = line(10);
         let samples = NoiseSamples::new(1, vec![0.0, 0.4, -0.4, 0.6, -1.4, 3.3]);
-        let by_offset = Landing::of_offsets(&samples, &grid, &alignment, &[9], Some(&[0.0]));
-        let by_point = Landing::of_point(&samples, &grid, &[4.5], Some(&[0.0]));
+        let by_offset = offsets(&samples, &grid, &alignment, Some(0.0));
+        let placement = Placement::of_point(&samples, &grid, &[4.5], Some(&[0.0]));
+        let by_point = Landing::new(&samples, &placement, None);
         assert_eq!(by_offset.counts(), by_point.counts());
-        assert_eq!(by_point.window().lower[0], by_offset.window().lower[0] + 4);
+        assert_eq!(by_point.table().lower[0], by_offset.table().lower[0] + 4);
     }
 }

@@ -1,23 +1,37 @@
 //! The landings of all actions: one shared by translation, or one per target.
 
 use super::landing::{Count, Landing, Spread};
+use super::placement::Placement;
 use super::targets::{Alignment, Targets};
+use super::windows::Windows;
 use crate::noise::NoiseSamples;
 use crate::partition::{CellId, Grid};
-use num_bigint::BigInt;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
-/// Where the samples of every action land.
-pub(super) enum Landings<'a> {
-    /// All targets sit alike in their cells: the rows are translations of each other.
-    Shared { landing: Landing, alignment: &'a [Alignment], last_cells: Vec<u32> },
-    /// Targets anywhere: every action has its own counts.
+/// How noise becomes cells, for every action.
+pub(super) enum Placements<'a> {
+    /// All targets sit alike in their cells: coordinates count from the cell of the target.
+    Shared { placement: Placement, alignment: &'a [Alignment], last_cells: Vec<u32> },
+    /// Targets anywhere: coordinates are those of the grid.
     PerTarget { samples: &'a NoiseSamples, tolerance: Option<Vec<f64>> },
 }
 
-impl<'a> Landings<'a> {
+/// Where the samples of every action land.
+pub(super) struct Landings<'a> {
+    samples: &'a NoiseSamples,
+    placements: Placements<'a>,
+    /// The cells that rows are to list, if more than those with samples.
+    windows: Option<Windows>,
+    /// The landing of all actions where coordinates count from the target.
+    shared: Option<Landing>,
+    /// The cells of the windows in these coordinates.
+    shared_windows: Vec<Spread>,
+}
+
+impl<'a> Placements<'a> {
+    /// With `tolerance`, samples near a face may be on either side of it.
     pub(super) fn new(
         samples: &'a NoiseSamples,
         grid: &Grid,
@@ -29,50 +43,111 @@ impl<'a> Landings<'a> {
         };
         let last = |(a, axis): (&Alignment, &Vec<f64>)| a.first_cell + a.stride * (axis.len() as u32 - 1);
         let last_cells: Vec<u32> = alignment.iter().zip(axes).map(last).collect();
-        let landing = Landing::of_offsets(samples, grid, alignment, &last_cells, tolerance.as_deref());
-        Self::Shared { landing, alignment, last_cells }
+        let placement = Placement::of_offsets(samples, grid, alignment, &last_cells, tolerance.as_deref());
+        Self::Shared { placement, alignment, last_cells }
     }
 
-    /// The landing of one action; writes the coordinates of the cell that it counts from into `origin`.
+    /// The placement of all actions, if there is one.
+    pub(super) fn shared(&self) -> Option<&Placement> {
+        match self {
+            Self::Shared { placement, .. } => Some(placement),
+            Self::PerTarget { .. } => None,
+        }
+    }
+
+    /// Per dimension, the offsets from a target's cell at which some action has a cell of the grid; for targets
+    /// anywhere, all those between two cells.
+    pub(super) fn offset_ranges(&self, grid: &Grid) -> Vec<(i64, i64)> {
+        let cells = grid.axes().iter().map(|axis| i64::from(axis.cells()));
+        match self {
+            Self::Shared { alignment, last_cells, .. } => (cells.zip(last_cells).zip(*alignment))
+                .map(|((cells, &last), a)| (-i64::from(last), cells - 1 - i64::from(a.first_cell)))
+                .collect(),
+            // A target on the upper face of the grid is one cell beyond it.
+            Self::PerTarget { .. } => cells.map(|cells| (-cells, cells)).collect(),
+        }
+    }
+}
+
+impl<'a> Landings<'a> {
+    /// The landings of `samples`; the tables of counts include the cells of the windows.
+    pub(super) fn new(
+        samples: &'a NoiseSamples,
+        placements: Placements<'a>,
+        windows: Option<Windows>,
+    ) -> Self {
+        let mut landings = Self { samples, placements, windows, shared: None, shared_windows: vec![] };
+        if let Some(placement) = landings.placements.shared() {
+            let windows = landings.cells_of_windows(placement);
+            landings.shared = Some(Landing::new(samples, placement, windows.first()));
+            landings.shared_windows = windows;
+        }
+        landings
+    }
+
+    fn cells_of_windows(&self, placement: &Placement) -> Vec<Spread> {
+        self.windows.as_ref().map_or(vec![], |windows| windows.cells(placement))
+    }
+
+    /// The landing of one action and the cells of its windows, the largest first.
+    ///
+    /// Writes the coordinates of the cell that they count from into `origin`.
     pub(super) fn of(
         &self,
         targets: &Targets,
         target: usize,
         grid: &Grid,
         origin: &mut [i32],
-    ) -> Cow<'_, Landing> {
-        match self {
-            Self::Shared { landing, alignment, .. } => {
+    ) -> (Cow<'_, Landing>, Cow<'_, [Spread]>) {
+        match (&self.placements, &self.shared) {
+            (Placements::Shared { alignment, .. }, Some(landing)) => {
                 targets.cell_coordinates(target, alignment, origin);
-                Cow::Borrowed(landing)
+                (Cow::Borrowed(landing), Cow::Borrowed(&self.shared_windows))
             }
-            Self::PerTarget { samples, tolerance } => {
-                let mut point = vec![0.0; grid.dimension()];
-                targets.point(target, &mut point);
+            _ => {
                 origin.fill(0);
-                Cow::Owned(Landing::of_point(samples, grid, &point, tolerance.as_deref()))
+                let placement = self.placement(targets, target, grid);
+                let windows = self.cells_of_windows(&placement);
+                let landing = Landing::new(self.samples, &placement, windows.first());
+                (Cow::Owned(landing), Cow::Owned(windows))
             }
         }
     }
 
-    /// The number of events "an action's noise lands in a cell" that differ: `Π (2n_j − 1)` offsets for
-    /// centres, every pair of action and cell in general.
-    pub(super) fn cell_events(&self, grid: &Grid, targets: &Targets) -> BigInt {
-        match self {
-            Self::Shared { alignment, last_cells, .. } => (grid.axes().iter().enumerate())
-                .map(|(j, axis)| BigInt::from(axis.cells() + last_cells[j] - alignment[j].first_cell))
-                .product(),
-            Self::PerTarget { .. } => BigInt::from(targets.len()) * BigInt::from(grid.num_cells()),
+    /// The landing of all actions, if coordinates count from their targets.
+    pub(super) fn shared(&self) -> Option<&Landing> {
+        self.shared.as_ref()
+    }
+
+    /// The coordinates of an action's target in its landing.
+    pub(super) fn target_cell(&self, targets: &Targets, target: usize, grid: &Grid) -> Vec<i32> {
+        match self.placements {
+            Placements::Shared { .. } => vec![0; grid.dimension()],
+            Placements::PerTarget { .. } => {
+                let nowhere = vec![0.0; grid.dimension()];
+                self.placement(targets, target, grid).spread(&nowhere).lower
+            }
+        }
+    }
+
+    fn placement(&self, targets: &Targets, target: usize, grid: &Grid) -> Cow<'_, Placement> {
+        match &self.placements {
+            Placements::Shared { placement, .. } => Cow::Borrowed(placement),
+            Placements::PerTarget { samples, tolerance } => {
+                let mut point = vec![0.0; grid.dimension()];
+                targets.point(target, &mut point);
+                Cow::Owned(Placement::of_point(samples, grid, &point, tolerance.as_deref()))
+            }
         }
     }
 
     /// The counts that some cell has in some action's landing.
     pub(super) fn distinct_counts(&self, targets: &Targets, grid: &Grid) -> BTreeSet<Count> {
-        if let Self::Shared { landing, .. } = self {
+        if let Some(landing) = &self.shared {
             return landing.counts().iter().copied().collect();
         }
         let of_target = |target| {
-            let landing = self.of(targets, target, grid, &mut vec![0; grid.dimension()]);
+            let (landing, _) = self.of(targets, target, grid, &mut vec![0; grid.dimension()]);
             landing.counts().iter().copied().collect::<BTreeSet<_>>()
         };
         (0..targets.len()).into_par_iter().map(of_target).reduce(BTreeSet::new, |mut all, one| {
@@ -81,35 +156,38 @@ impl<'a> Landings<'a> {
         })
     }
 
-    /// What is shared between all actions in memory, in cells of a window.
-    pub(super) fn window_volume(&self, grid: &Grid) -> usize {
-        match self {
-            Self::Shared { landing, .. } => landing.window().volume().min(grid.num_cells() as usize),
-            Self::PerTarget { .. } => grid.num_cells() as usize,
+    /// An upper bound on the number of cells in a row.
+    pub(super) fn row_length(&self, grid: &Grid) -> usize {
+        let cells = grid.num_cells() as usize;
+        match (&self.shared, self.shared_windows.first()) {
+            (_, Some(window)) => window.volume().min(cells),
+            (Some(landing), None) => landing.table().volume().min(cells),
+            (None, None) => cells,
         }
     }
 }
 
-/// Visits the cells of the window at `origin` that lie in the grid, in ascending order.
+/// Visits the cells of `window` at `origin` that lie in the grid, in ascending order, with their positions in
+/// `table`.
 pub(super) fn for_each_cell(
-    landing: &Landing,
+    table: &Spread,
+    window: &Spread,
     origin: &[i32],
     grid: &Grid,
-    mut visit: impl FnMut(CellId, Count),
+    mut visit: impl FnMut(CellId, usize),
 ) {
-    let Some(clipped) = clip(landing.window(), origin, grid) else { return };
-    let window = landing.window();
+    let Some(clipped) = clip(window, origin, grid) else { return };
     let n = origin.len();
     let mut line = clipped.lower.clone();
     loop {
         let (mut cell, mut position) = (0u32, 0usize);
         for j in 0..n {
             cell += line[j] as u32 * grid.strides()[j];
-            let extent = (window.upper[j] - window.lower[j]) as usize + 1;
-            position = position * extent + (line[j] - origin[j] - window.lower[j]) as usize;
+            let extent = (table.upper[j] - table.lower[j]) as usize + 1;
+            position = position * extent + (line[j] - origin[j] - table.lower[j]) as usize;
         }
         for i in 0..=(clipped.upper[n - 1] - clipped.lower[n - 1]) as usize {
-            visit(CellId(cell + i as u32), landing.counts()[position + i]);
+            visit(CellId(cell + i as u32), position + i);
         }
         let Some(j) = (0..n - 1).rev().find(|&j| line[j] < clipped.upper[j]) else { return };
         line[j] += 1;

@@ -69,7 +69,10 @@ impl CliError {
                     "{file}: found another problem's model; expected the one compiled from it\n  Compile it again."
                 ));
             }
-            AbstractionError::Budget(_) | AbstractionError::Invalid(_) | AbstractionError::NotSteerable => {
+            AbstractionError::Budget(_)
+            | AbstractionError::Invalid(_)
+            | AbstractionError::Scout(_)
+            | AbstractionError::NotSteerable => {
                 return Self::Failure(format!(
                     "{file}: {error}\n  This is a mistake in dynabs; please report it."
                 ));

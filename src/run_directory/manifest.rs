@@ -89,7 +89,7 @@ pub struct ProbabilityReport {
     pub beta: Option<f64>,
     /// The families of events that it was split over.
     pub budget: Vec<Allocation>,
-    /// The bound on the mass outside the samples' bounding box.
+    /// The bound on the mass outside the window of cells that a row lists.
     pub unseen_mass: Option<f64>,
     /// In reference mode, the failure probability of one interval.
     pub beta_per_interval: Option<f64>,

@@ -73,6 +73,12 @@ impl RowBlock {
     }
 }
 
+/// The least expectation of `values ≥ 0` that each row allows, rounded down.
+pub fn worst_expectations(rows: &Rows, values: &[f64]) -> Vec<f64> {
+    let all = (0..rows.len() as RowId).collect();
+    RowBlock::new(rows, all).evaluate(rows, values, Optimum::Min, Side::Lower)
+}
+
 /// `1 − Σ l`, to nearest.
 fn slack(row: Row<'_>) -> f64 {
     1.0 - row.lower.iter().sum::<f64>()

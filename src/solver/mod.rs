@@ -36,6 +36,7 @@ mod sweep;
 mod unbounded;
 
 pub use answer::{Answer, AnswerError};
+pub use expectation::worst_expectations;
 pub use options::{SolverOptions, Status};
 pub use policy::Policy;
 pub use prune::{PruneError, Pruned};

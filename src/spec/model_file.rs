@@ -248,6 +248,10 @@ pub struct ProbabilitiesSpec {
     /// pac: 1 − confidence, where that is easier to write.
     #[serde(default)]
     pub beta: Option<f64>,
+    /// pac: rows do not list the cells of this many farthest samples, 0 if not given: with heavy-tailed noise
+    /// they stay short. Choose it before looking at the samples.
+    #[serde(default)]
+    pub discard: Option<u64>,
     /// reference: the failure probability of one interval.
     #[serde(default)]
     pub beta_per_interval: Option<f64>,

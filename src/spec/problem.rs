@@ -73,6 +73,8 @@ pub enum Probabilities {
     Pac {
         /// The failure probability, exactly.
         beta: Rational,
+        /// How many of the farthest samples are left out of the cells that rows list.
+        discard: u64,
     },
     /// The published tool's intervals.
     Reference {
@@ -257,17 +259,18 @@ fn probabilities(spec: &ProbabilitiesSpec) -> Result<Probabilities, Diagnostic> 
             foreign("confidence", "reference")
         }
         ProbabilitiesSpec { mode: Mode::Reference, beta: Some(_), .. } => foreign("beta", "reference"),
+        ProbabilitiesSpec { mode: Mode::Reference, discard: Some(_), .. } => foreign("discard", "reference"),
         ProbabilitiesSpec { mode: Mode::Pac, confidence: Some(_), beta: Some(_), .. } => Err(Diagnostic::at(
             "/probabilities",
             "both confidence and beta",
             "one of them: beta = 1 − confidence",
         )),
-        ProbabilitiesSpec { mode: Mode::Pac, beta: Some(beta), .. } => {
-            in_unit("beta", *beta).map(|beta| Probabilities::Pac { beta })
+        ProbabilitiesSpec { mode: Mode::Pac, beta: Some(beta), discard, .. } => {
+            in_unit("beta", *beta).map(|beta| Probabilities::Pac { beta, discard: discard.unwrap_or(0) })
         }
-        ProbabilitiesSpec { mode: Mode::Pac, confidence, .. } => {
-            in_unit("confidence", confidence.unwrap_or(0.99))
-                .map(|confidence| Probabilities::Pac { beta: Rational::one() - confidence })
+        ProbabilitiesSpec { mode: Mode::Pac, confidence, discard, .. } => {
+            let confidence = in_unit("confidence", confidence.unwrap_or(0.99))?;
+            Ok(Probabilities::Pac { beta: Rational::one() - confidence, discard: discard.unwrap_or(0) })
         }
         ProbabilitiesSpec { mode: Mode::Reference, beta_per_interval, .. } => {
             let beta_per_interval = beta_per_interval.unwrap_or(0.01);

@@ -20,14 +20,16 @@ pub struct ConfidenceBudget {
 pub struct Allocation {
     /// What the events are about.
     pub family: String,
-    /// The number of events, as a decimal integer.
+    /// The number of events, rounded if beyond 2⁵³.
     pub events: f64,
     /// The failure probability given to the family.
     pub beta: f64,
-    /// The one-sided tails per event that share its level.
-    pub tails: u32,
-    /// The one-sided level per tail, rounded down.
-    pub level: f64,
+}
+
+/// What a family of events may spend, to be divided among its events by weight.
+#[derive(Clone, Debug)]
+pub struct Grant {
+    per_weight: Rational,
 }
 
 /// The budget does not cover an allocation.
@@ -46,7 +48,10 @@ impl ConfidenceBudget {
         Self { total, spent: Rational::from_integer(0.into()), allocations: vec![] }
     }
 
-    /// Spends `share · β` on `events` events with `tails` one-sided tails each; returns the level per tail.
+    /// Gives `share · β` to a family of events whose weights sum to at most `weight`.
+    ///
+    /// Weights are fixed before any sample is looked at. An event, or a tail of one, with weight `w` may then
+    /// fail with probability `share · β · w / weight`: [`Grant::level`].
     ///
     /// # Errors
     /// [`BudgetError`] if more than `β` would be spent in all.
@@ -55,24 +60,20 @@ impl ConfidenceBudget {
         family: &str,
         share: &Rational,
         events: &BigInt,
-        tails: u32,
-    ) -> Result<f64, BudgetError> {
+        weight: &BigInt,
+    ) -> Result<Grant, BudgetError> {
         let beta = &self.total * share;
         let spent = &self.spent + &beta;
         if spent > self.total {
             return Err(BudgetError { family: family.to_owned(), total: to_f64(&self.total) });
         }
         self.spent = spent;
-        let per_tail = &beta / Rational::from_integer(events * BigInt::from(tails));
-        let level = to_f64_down(&per_tail);
         self.allocations.push(Allocation {
             family: family.to_owned(),
             events: to_f64(&Rational::from_integer(events.clone())),
             beta: to_f64(&beta),
-            tails,
-            level,
         });
-        Ok(level)
+        Ok(Grant { per_weight: beta / Rational::from_integer(weight.clone()) })
     }
 
     /// The whole budget.
@@ -83,6 +84,13 @@ impl ConfidenceBudget {
     /// What it was spent on.
     pub fn allocations(&self) -> &[Allocation] {
         &self.allocations
+    }
+}
+
+impl Grant {
+    /// The level of an event of this weight, rounded down.
+    pub fn level(&self, weight: u64) -> f64 {
+        to_f64_down(&(&self.per_weight * Rational::from_integer(weight.into())))
     }
 }
 
@@ -97,10 +105,13 @@ mod tests {
     #[test]
     fn a_budget_is_spent_once() {
         let mut budget = ConfidenceBudget::new(ratio(1, 100));
-        let level = budget.spend("cells", &ratio(9, 10), &BigInt::from(81), 2).unwrap();
-        assert!(level <= 0.009 / 162.0 && level > 0.008_999_999 / 162.0);
-        assert!(budget.spend("goal", &ratio(1, 10), &BigInt::from(1), 1).is_ok());
-        let error = budget.spend("more", &ratio(1, 1_000_000), &BigInt::from(1), 1).unwrap_err();
+        let grant = budget.spend("cells", &ratio(9, 10), &BigInt::from(2), &BigInt::from(10)).unwrap();
+        let (level, rest) = (grant.level(3), grant.level(7));
+        assert!(level <= 0.0027 && level > 0.002_699_999);
+        assert!(level + rest <= 0.009);
+        let one = BigInt::from(1);
+        assert!(budget.spend("goal", &ratio(1, 10), &one, &one).is_ok());
+        let error = budget.spend("more", &ratio(1, 1_000_000), &one, &one).unwrap_err();
         assert_eq!(error.family, "more");
         assert_eq!(budget.allocations().len(), 2);
     }

@@ -7,9 +7,7 @@ mod binomial;
 mod budget;
 mod clopper_pearson;
 mod reference;
-mod unseen_mass;
 
-pub use budget::{Allocation, BudgetError, ConfidenceBudget};
+pub use budget::{Allocation, BudgetError, ConfidenceBudget, Grant};
 pub use clopper_pearson::{lower_bound, upper_bound};
 pub use reference::ReferenceIntervals;
-pub use unseen_mass::unseen_mass;

@@ -30,7 +30,7 @@ impl Promise {
     /// What is promised about the controller of a problem.
     pub fn new(problem: &Problem, controller: &Controller) -> Self {
         let confidence = match &problem.probabilities {
-            Probabilities::Pac { beta } => Some(to_f64(&(Rational::one() - beta))),
+            Probabilities::Pac { beta, .. } => Some(to_f64(&(Rational::one() - beta))),
             Probabilities::Reference { .. } => None,
         };
         let group_steps = problem.group_steps as u64;

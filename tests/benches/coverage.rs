@@ -1,0 +1,78 @@
+//! How often the promises are broken, over thousands of sample sets from known distributions.
+//!
+//! `cargo bench --bench coverage [-- REPLICATIONS]` prints a Markdown table; ends with 1 if some claim fails more
+//! often than promised.
+#![allow(missing_docs, clippy::unwrap_used)]
+
+#[path = "../coverage/noise.rs"]
+mod noise;
+#[path = "../coverage/replication.rs"]
+mod replication;
+#[path = "../coverage/truth.rs"]
+mod truth;
+
+use dynabs::statistics::{lower_bound, upper_bound};
+use noise::Noise;
+use rayon::prelude::*;
+use replication::{Failures, replicate};
+use std::process::ExitCode;
+use truth::Layout;
+
+const BETA: f64 = 0.1;
+const SAMPLES: usize = 300;
+/// The confidence of the intervals of the frequencies themselves.
+const TAIL: f64 = 0.005;
+
+fn main() -> ExitCode {
+    let replications = std::env::args().skip(1).find_map(|argument| argument.parse().ok()).unwrap_or(5000);
+    println!(
+        "{replications} sample sets of {SAMPLES} per row, β = {BETA}; frequencies with 99 % intervals\n"
+    );
+    println!(
+        "| noise | targets | value above truth | rows | cells | goal | failed | no unseen mass | no union bound |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|");
+    let mut kept = true;
+    for layout in [Layout::Centers, Layout::Points] {
+        for noise in Noise::ALL {
+            let failures = run(layout, noise, replications);
+            kept &= failures.rows as f64 <= BETA * replications as f64;
+            kept &= failures.values as f64 <= BETA * replications as f64;
+            let cell = |count| {
+                let percent = |p: f64| 100.0 * p;
+                let (low, high) =
+                    (lower_bound(count, replications, TAIL), upper_bound(count, replications, TAIL));
+                let rate = count as f64 / replications as f64;
+                format!("{:.2} % [{:.2}, {:.2}]", percent(rate), percent(low), percent(high))
+            };
+            println!(
+                "| {noise:?} | {layout:?} | {} | {} | {} | {} | {} | {} | {} |",
+                cell(failures.values),
+                cell(failures.rows),
+                cell(failures.cells),
+                cell(failures.goal),
+                cell(failures.failed),
+                cell(failures.without_unseen),
+                cell(failures.without_union)
+            );
+        }
+    }
+    if kept { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+fn run(layout: Layout, noise: Noise, replications: u64) -> Failures {
+    let seeds: Vec<u64> = (0..replications).collect();
+    let parts = seeds.par_chunks(50).map(|seeds| {
+        let directory = tempfile::tempdir().unwrap();
+        let mut failures = Failures::default();
+        seeds.iter().for_each(|&seed| {
+            // Other sets than those of the tests.
+            failures += replicate(directory.path(), layout, noise, (SAMPLES, BETA), 1_000_000 + seed);
+        });
+        failures
+    });
+    parts.reduce(Failures::default, |mut all, one| {
+        all += one;
+        all
+    })
+}
