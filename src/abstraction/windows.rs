@@ -22,13 +22,16 @@ use crate::partition::Grid;
 use crate::statistics::upper_bound;
 
 /// At most this many samples decide about the proportions: enough for their order of magnitude.
-const SHAPE_SAMPLES: usize = 64;
+const SHAPE_SAMPLES: usize = 48;
 
 /// And at most this part of all samples.
 const SHAPE_PART: usize = 16;
 
 /// A mean this many standard errors away from 0 is taken for the centre, if this many samples say so.
 const CLEARLY_OFF_CENTRE: (f64, usize) = (3.0, 8);
+
+/// The least half-width, in cells: noise far below a cell stays in it, and some width there must be.
+const LEAST_PROPORTION: f64 = 1.0 / 16.0;
 
 /// The centre and the proportions of nested boxes.
 #[derive(Clone, Debug)]
@@ -56,7 +59,7 @@ pub(super) fn shape_samples(samples: usize) -> usize {
 }
 
 impl Shape {
-    /// Half-widths are the standard deviations, but at least half a cell; the centre is 0 unless the mean clearly
+    /// Half-widths are the standard deviations, but at least a sixteenth of a cell; the centre is 0 unless the mean clearly
     /// lies elsewhere.
     pub(super) fn learn(samples: &NoiseSamples, grid: &Grid) -> Self {
         let used = shape_samples(samples.len());
@@ -69,7 +72,7 @@ impl Shape {
             let error = (squares / (number * (number - 1.0))).sqrt();
             let is_off = used >= CLEARLY_OFF_CENTRE.1 && mean.abs() > CLEARLY_OFF_CENTRE.0 * error;
             let middle = if is_off { mean } else { 0.0 };
-            let least = 0.5 * to_f64(axis.width());
+            let least = LEAST_PROPORTION * to_f64(axis.width());
             let deviation = (squares / (number - 1.0)).sqrt();
             // Not a number if there are too few samples.
             half.push(least.max(deviation));

@@ -10,7 +10,7 @@ use num_bigint::BigInt;
 use std::collections::HashMap;
 
 /// How the budget is split, in hundredths.
-const SHARES: [(&str, i64); 4] = [("cells", 35), ("goal", 8), ("lost", 7), ("windows", 50)];
+const SHARES: [(&str, i64); 4] = [("cells", 34), ("goal", 8), ("lost", 6), ("windows", 52)];
 
 /// The window of all samples, then those that leave out one sample more each: rows close to something lost are
 /// better off with a smaller window that stays clear of it.
