@@ -72,7 +72,7 @@ const MISTAKES: &[Mistake] = &[
         "/noise={\"gaussian\":{\"covariance\":[[1,2],[1,5]]},\"count\":100}",
         &["/noise/gaussian/covariance", "symmetric", "(0,1) = 2", "(1,0) = 1"],
     ),
-    mistake(ROOM, "/noise/count=8", &["/noise", "8 samples", "at least"]),
+    mistake(ROOM, "/noise/count=5", &["/noise", "8 samples", "at least"]),
     mistake(ROOM, "/noise/samples={\"file\":\"x.csv\",\"of\":\"step\"}", &["/noise", "either {samples}"]),
     mistake(ONE_LAYER, "/noise/samples/file=\"noise/none.csv\"", &["/noise/samples/file", "none.csv"]),
     // Partition and task.
