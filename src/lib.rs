@@ -24,6 +24,7 @@
 //! | the result is checked again | [`verify`] | a certificate, accepted in exact arithmetic |
 //! | others are asked the same | [`crosscheck`] | PRISM's and Storm's values of every state, and where they differ |
 //! | the policy is refined | [`controller`] | a feedback [`Controller`](controller::Controller), its closed loop, C code |
+//! | it is shown | [`report`] | one HTML page, SVG |
 //!
 //! What makes it fast: an action steers to a target point, so its distribution over cells does not depend
 //! on the cell it is taken in. An interval MDP with tens of millions of transitions has a few thousand
@@ -74,6 +75,7 @@ pub mod numeric;
 pub mod partition;
 pub mod progress;
 pub mod property;
+pub mod report;
 pub mod run_directory;
 pub mod solver;
 pub mod spec;

@@ -4,6 +4,7 @@ use super::controller::{ControllerArguments, run as controller};
 use super::convert::{ConvertArguments, run as convert};
 use super::crosscheck::{CrosscheckArguments, run as crosscheck};
 use super::diff::{DiffArguments, run as diff};
+use super::report::{ReportArguments, run as report};
 use super::simulate::{SimulateArguments, run as simulate};
 use super::solve::{SolveArguments, run as solve};
 use super::verify::{VerifyArguments, run as verify};
@@ -35,6 +36,8 @@ enum Command {
     Verify(VerifyArguments),
     /// Write a model in another format, or with one state per row.
     Convert(ConvertArguments),
+    /// Show a compiled model, its value function and closed loop as one HTML page.
+    Report(ReportArguments),
     /// Compare two run directories, models, results or reference files; exit code 1 on a difference.
     Diff(DiffArguments),
     /// Ask PRISM or Storm the same, and compare the values of all states; exit code 1 if one disagrees.
@@ -58,6 +61,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
         Command::Simulate(arguments) => simulate(arguments),
         Command::Verify(arguments) => verify(arguments),
         Command::Convert(arguments) => convert(arguments),
+        Command::Report(arguments) => report(arguments),
         Command::Diff(arguments) => diff(arguments),
         Command::Crosscheck(arguments) => crosscheck(arguments),
     }

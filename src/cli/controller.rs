@@ -1,7 +1,7 @@
 //! `dynabs-check controller`: the refined feedback law as a file.
 
 use super::exports::replace;
-use super::run_source::refine;
+use super::run_source::{Refined, refine};
 use super::{Bars, CliError, print};
 use crate::controller::export::{CSourceError, Promise, c_source, write_csv, write_json};
 use clap::Args;
@@ -33,7 +33,7 @@ pub fn run(arguments: &ControllerArguments) -> Result<ExitCode, CliError> {
     let path = &arguments.output;
     let form = Form::of(path)?;
     let bars = Arc::new(Bars::new(arguments.quiet));
-    let (run, controller) = refine(&arguments.directory, &bars)?;
+    let Refined { run, controller, .. } = refine(&arguments.directory, &bars)?;
     let problem = &run.problem;
     match form {
         Form::Json => replace(path, |out| write_json(&controller, problem, out))?,

@@ -12,6 +12,7 @@ mod exports;
 mod model_source;
 mod output;
 mod progress;
+pub mod report;
 mod results;
 mod run_source;
 pub mod simulate;

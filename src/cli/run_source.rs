@@ -4,7 +4,7 @@ use super::{Bars, CliError};
 use crate::controller::{Controller, ControllerError};
 use crate::progress::Progress;
 use crate::run_directory::{OpenError, Run};
-use crate::solver::{SolverOptions, Status};
+use crate::solver::{Answer, SolverOptions, Status};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -23,13 +23,20 @@ impl From<ControllerError> for CliError {
     }
 }
 
+/// A run, solved, with its controller.
+pub(super) struct Refined {
+    pub(super) run: Run,
+    pub(super) answer: Answer,
+    pub(super) controller: Controller,
+}
+
 /// Opens a run, solves its task and refines the policy.
 ///
 /// The policy is not stored anywhere: it is computed anew, and is the same every time.
 ///
 /// # Errors
 /// [`CliError`] if the directory is no run, or if it was interrupted.
-pub(super) fn refine(directory: &Path, bars: &Arc<Bars>) -> Result<(Run, Controller), CliError> {
+pub(super) fn refine(directory: &Path, bars: &Arc<Bars>) -> Result<Refined, CliError> {
     let run = Run::open(directory, &**bars)?;
     bars.catch_interrupts()?;
     let progress =
@@ -47,5 +54,5 @@ pub(super) fn refine(directory: &Path, bars: &Arc<Bars>) -> Result<(Run, Control
         return Err(CliError::Interrupted);
     }
     let controller = Controller::new(&run.problem, &run.abstraction, &answer)?;
-    Ok((run, controller))
+    Ok(Refined { run, answer, controller })
 }

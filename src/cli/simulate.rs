@@ -1,7 +1,7 @@
 //! `dynabs-check simulate`: the closed loop against its promise.
 
 use super::exports::replace;
-use super::run_source::refine;
+use super::run_source::{Refined, refine};
 use super::simulation_noise::{NoiseArguments, noise};
 use super::simulation_report::{Report, Simulated};
 use super::trajectories::write_trajectories;
@@ -74,7 +74,7 @@ fn probability(text: &str) -> Result<f64, String> {
 /// [`CliError`], which knows its exit code.
 pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
-    let (run, controller) = refine(&arguments.directory, &bars)?;
+    let Refined { run, controller, .. } = refine(&arguments.directory, &bars)?;
     let start = start(arguments, &run)?;
     let noise = noise(&arguments.noise, &run)?;
     let simulation = Simulation::new(&run.problem, &controller, noise.noise.clone(), arguments.most_steps);

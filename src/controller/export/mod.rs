@@ -9,4 +9,6 @@ mod template;
 pub use c_source::{CSourceError, c_source};
 pub use csv::write_csv;
 pub use json::write_json;
+pub(crate) use template::render;
+
 pub use promise::{Promise, lower_bound_text};

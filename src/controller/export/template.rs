@@ -4,7 +4,7 @@
 ///
 /// # Errors
 /// The first key that has no value.
-pub(super) fn render(template: &str, values: &[(&str, String)]) -> Result<String, String> {
+pub(crate) fn render(template: &str, values: &[(&str, String)]) -> Result<String, String> {
     let mut text = String::with_capacity(template.len());
     let mut rest = template;
     while let Some((before, after)) = rest.split_once("{{") {

@@ -1,0 +1,197 @@
+//! The numbers that a page's script redraws plots from.
+
+use super::material::Material;
+use super::numbers::{compact, subscripted};
+use super::palette::{FIRST_LIGHT_LEVEL, LEVELS, colour};
+use super::paths::class;
+use super::regions::sides;
+use super::view::{Axis, View};
+use crate::partition::{CellId, CellKind, Region};
+use serde_json::{Value, json};
+
+/// Beyond this many cells a page is static.
+const MOST_CELLS: u32 = 300_000;
+
+/// The most ranges of enabled actions that are embedded.
+const MOST_RANGES: usize = 400_000;
+
+/// What is embedded, and what is left out for its size.
+pub(super) struct Embedded {
+    /// JSON that may stand in a script element; `null` if the page is static.
+    pub(super) json: String,
+    pub(super) left_out: Vec<String>,
+}
+
+pub(super) fn embed(material: &Material<'_>, view: &View) -> Embedded {
+    let problem = material.problem();
+    let cells = problem.grid.num_cells();
+    if cells > MOST_CELLS {
+        let note = format!("{cells} cells are too many to embed: the plots cannot be changed");
+        return Embedded { json: "null".into(), left_out: vec![note] };
+    }
+    let mut left_out = vec![];
+    if let Some(horizon) = problem.horizon.filter(|horizon| *horizon > material.values.last_step() as u64) {
+        let last = material.values.last_step();
+        left_out.push(format!("values after step {last} of {horizon}"));
+    }
+    let ranges = ranges(material);
+    if ranges.is_none() {
+        left_out.push("which actions are enabled in each cell".into());
+    }
+    let kind = |cell| match material.controller.kind(CellId(cell)) {
+        CellKind::Ordinary => 0,
+        CellKind::Goal => 1,
+        CellKind::Unsafe => 2,
+    };
+    let range = |end: fn((f64, f64)) -> f64| -> Vec<f64> {
+        (0..material.dimension()).map(|j| end(material.range(j))).collect()
+    };
+    let bytes: Vec<u8> = material.values.all().flat_map(f32::to_le_bytes).collect();
+    let value = json!({
+        "names": (0..material.dimension()).map(|j| subscripted("x", j + 1)).collect::<Vec<_>>(),
+        "time": material.time_name(),
+        "group": problem.group_steps,
+        "horizon": problem.horizon,
+        "lastStep": material.last_step(),
+        "lower": range(|(lower, _)| lower),
+        "upper": range(|(_, upper)| upper),
+        "cells": problem.grid.axes().iter().map(|axis| axis.cells()).collect::<Vec<_>>(),
+        "strides": problem.grid.strides(),
+        "colours": (0..LEVELS).map(colour).collect::<Vec<_>>(),
+        "firstLight": FIRST_LIGHT_LEVEL,
+        "values": {"type": "f32", "data": base64(&bytes)},
+        "kinds": packed((0..cells).map(kind)),
+        "policy": policy(material),
+        "targets": targets(material),
+        "mean": material.noise_mean,
+        "ranges": ranges,
+        "goal": regions(&problem.goal, material.dimension()),
+        "unsafe": regions(&problem.unsafe_, material.dimension()),
+        "threshold": problem.threshold.as_ref().map(|threshold| threshold.to_f64()),
+        "runs": runs(material),
+        "start": material.start,
+        "view": {
+            "across": match view.across { Axis::Time => -1, Axis::State(j) => j as i64 },
+            "up": view.up,
+            "slice": view.slice,
+            "step": view.step,
+        },
+    });
+    // Nothing in a script element may look like its end.
+    Embedded { json: value.to_string().replace('<', "\\u003c"), left_out }
+}
+
+/// The targets of every cell by the steps left.
+fn policy(material: &Material<'_>) -> Value {
+    let cells = || (0..material.problem().grid.num_cells()).map(CellId);
+    let mut starts = vec![0];
+    for cell in cells() {
+        starts.push(starts[starts.len() - 1] + material.controller.entries(cell).len() as u32);
+    }
+    let entries = || cells().flat_map(|cell| material.controller.entries(cell));
+    json!({
+        "starts": packed(starts.into_iter()),
+        "left": packed(entries().map(|entry| u32::try_from(entry.steps_left).unwrap_or(u32::MAX))),
+        "target": packed(entries().map(|entry| entry.target)),
+    })
+}
+
+fn targets(material: &Material<'_>) -> Value {
+    let targets = &material.run.abstraction.targets;
+    match targets.axes() {
+        Some(axes) => json!({"axes": axes}),
+        None => {
+            let points = (0..targets.len() as u32).map(|target| material.controller.target_point(target));
+            json!({"points": points.collect::<Vec<_>>()})
+        }
+    }
+}
+
+/// The enabled actions of every cell, as ranges.
+fn ranges(material: &Material<'_>) -> Option<Value> {
+    let abstraction = &material.run.abstraction;
+    let choices = abstraction.model.choices();
+    let of = |cell: u32| choices.ranges(abstraction.state_of_cell[cell as usize]);
+    let cells = 0..material.problem().grid.num_cells();
+    let mut starts = vec![0];
+    for cell in cells.clone() {
+        starts.push(starts[starts.len() - 1] + of(cell).len() as u32);
+    }
+    let all = || cells.clone().flat_map(of);
+    (starts[starts.len() - 1] as usize <= MOST_RANGES).then(|| {
+        json!({
+            "starts": packed(starts.iter().copied()),
+            "first": packed(all().map(|range| range.first)),
+            "length": packed(all().map(|range| range.len() as u32)),
+        })
+    })
+}
+
+fn regions(regions: &[Region], dimension: usize) -> Value {
+    // Open sides are infinite, which JSON calls null.
+    regions.iter().map(|region| json!((0..dimension).map(|j| sides(region, j)).collect::<Vec<_>>())).collect()
+}
+
+fn runs(material: &Material<'_>) -> Value {
+    let d = material.problem().group_steps as f64;
+    let run = |trajectory: &crate::controller::Trajectory| {
+        let points = trajectory.steps.iter().map(|step| {
+            let time = std::iter::once(compact(step.step as f64 / d));
+            time.chain(step.state.iter().map(|&x| compact(x))).collect::<Vec<_>>()
+        });
+        let asked = trajectory.steps.iter().enumerate().filter(|(_, step)| step.decision.is_some());
+        json!({
+            "class": class(trajectory),
+            "points": points.collect::<Vec<_>>(),
+            "asked": asked.map(|(i, _)| i).collect::<Vec<_>>(),
+        })
+    };
+    material.trajectories.iter().map(run).collect()
+}
+
+/// Whole numbers in as few bytes as they need, little-endian.
+fn packed(numbers: impl Iterator<Item = u32>) -> Value {
+    let numbers: Vec<u32> = numbers.collect();
+    let (name, width) = match numbers.iter().max() {
+        Some(&most) if most > u32::from(u16::MAX) => ("u32", 4),
+        Some(&most) if most > u32::from(u8::MAX) => ("u16", 2),
+        _ => ("u8", 1),
+    };
+    let bytes: Vec<u8> = numbers.iter().flat_map(|n| n.to_le_bytes().into_iter().take(width)).collect();
+    json!({"type": name, "data": base64(&bytes)})
+}
+
+/// Base64 with padding (RFC 4648).
+fn base64(bytes: &[u8]) -> String {
+    const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for chunk in bytes.chunks(3) {
+        let byte = |i: usize| u32::from(chunk.get(i).copied().unwrap_or_default());
+        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for i in 0..4 {
+            let digit = ALPHABET[(bits >> (18 - 6 * i) & 63) as usize];
+            text.push(if i <= chunk.len() { char::from(digit) } else { '=' });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base64_of_the_rfc() {
+        let cases = [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")];
+        for (plain, coded) in cases {
+            assert_eq!(base64(plain.as_bytes()), coded);
+        }
+    }
+
+    #[test]
+    fn numbers_take_the_bytes_they_need() {
+        assert_eq!(packed([1, 255].into_iter())["type"], "u8");
+        assert_eq!(packed([256].into_iter()), json!({"type": "u16", "data": "AAE="}));
+        assert_eq!(packed([65536].into_iter())["type"], "u32");
+    }
+}

@@ -1,0 +1,133 @@
+//! The value function over a plane.
+
+use super::frame::Frame;
+use super::markup::{Plot, group};
+use super::material::Material;
+use super::numbers::{coordinate, short, subscripted};
+use super::palette::{LEVELS, colour, level};
+use super::paths::{arrows, runs};
+use super::regions::{hatch, regions};
+use super::view::View;
+
+/// The size of the frame of the map.
+const SIZE: (f64, f64) = (560.0, 420.0);
+
+/// The frame of a heat map.
+pub(super) fn map_frame(material: &Material<'_>, view: &View) -> Frame {
+    Frame::new(SIZE, view.range_across(material), material.range(view.up))
+}
+
+/// The value function over a plane, with regions, vector field and runs.
+pub(super) fn heat_map(material: &Material<'_>, view: &View) -> Plot {
+    let id = "map";
+    let frame = map_frame(material, view);
+    let (across, up) = view.names(material);
+    let inside = [
+        group("heat", &squares(material, view, &frame)),
+        group("regions", &regions(material, view, &frame, id)),
+        group("arrows", &arrows(material, view, &frame)),
+        group("runs", &runs(material, view, &frame)),
+        group("pick", ""),
+    ];
+    let content = format!(
+        "<defs>{}{}{}</defs>\n<g clip-path=\"url(#{id}-clip)\">\n{}</g>\n{}{}",
+        frame.clip(id),
+        hatch(id),
+        gradient(),
+        inside.concat(),
+        group("axes", &frame.axes(&across, &up)),
+        group("scale", &colour_bar(&frame)),
+    );
+    Plot {
+        id,
+        width: 720.0,
+        height: 484.0,
+        title: format!("{}: the promised probability over {across} and {up}", material.problem().name),
+        description: description(material, view),
+        content,
+    }
+}
+
+/// What a heat map shows, in words.
+fn description(material: &Material<'_>, view: &View) -> String {
+    let fixed: Vec<_> = view
+        .fixed()
+        .map(|j| format!("{} = {}", subscripted("x", j + 1), short(material.center(j, view.slice[j]))))
+        .collect();
+    let at = if fixed.is_empty() { String::new() } else { format!(" at {}", fixed.join(", ")) };
+    format!(
+        "Lower bounds on the probability of success{at}, from dark (0) to light (1); the unsafe region is hatched, the \
+         goal outlined; arrows point from the centres of cells towards the mean of the next state; lines are {} \
+         simulated runs.",
+        material.trajectories.len()
+    )
+}
+
+/// One path per colour, neighbours in a row merged.
+fn squares(material: &Material<'_>, view: &View, frame: &Frame) -> String {
+    let (columns, rows) = view.size(material);
+    let (block_x, block_y) = view.blocks(material);
+    let faces = &material.faces()[view.up];
+    let mut paths = vec![String::new(); LEVELS];
+    for j in (0..rows).step_by(block_y as usize) {
+        let top = (j + block_y).min(rows);
+        let (y0, y1) = (frame.y.at(faces[j as usize]), frame.y.at(faces[top as usize]));
+        let mut add = |from: u32, to: u32, level: usize| {
+            let (x0, x1) = (view.face_across(material, from), view.face_across(material, to));
+            let (x0, x1) = (coordinate(frame.x.at(x0)), coordinate(frame.x.at(x1)));
+            paths[level] += &format!("M{x0} {}H{x1}V{}H{x0}Z", coordinate(y0), coordinate(y1));
+        };
+        let mut open = (0, None);
+        for i in (0..columns).step_by(block_x as usize) {
+            let right = (i + block_x).min(columns);
+            let least = (i..right).flat_map(|i| (j..top).map(move |j| (i, j))).map(|(i, j)| {
+                let (cell, step) = view.cell(material, i, j);
+                material.values.at(step)[cell.index()]
+            });
+            let here = Some(level(least.fold(1.0, f32::min)));
+            if here != open.1 {
+                if let (from, Some(level)) = open {
+                    add(from, i, level);
+                }
+                open = (i, here);
+            }
+        }
+        if let (from, Some(level)) = open {
+            add(from, columns, level);
+        }
+    }
+    let drawn = paths.iter().enumerate().filter(|(_, path)| !path.is_empty());
+    drawn.map(|(level, path)| format!("<path fill=\"{}\" d=\"{path}\"/>", colour(level))).collect()
+}
+
+fn gradient() -> String {
+    let stops = (0..LEVELS).map(|level| {
+        let offset = coordinate(level as f64 / (LEVELS - 1) as f64);
+        format!("<stop offset=\"{offset}\" stop-color=\"{}\"/>", colour(level))
+    });
+    format!(
+        "<linearGradient id=\"map-colours\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">{}</linearGradient>\n",
+        stops.collect::<String>()
+    )
+}
+
+fn colour_bar(frame: &Frame) -> String {
+    let left = frame.left + frame.width + 20.0;
+    let (top, height) = (frame.top, frame.height);
+    let mut text = format!(
+        "<rect class=\"border\" fill=\"url(#map-colours)\" x=\"{left}\" y=\"{top}\" width=\"16\" height=\"{height}\" \
+         style=\"fill:url(#map-colours)\"/>"
+    );
+    for tick in [0.0, 0.2, 0.4, 0.6, 0.8, 1.0] {
+        let y = top + height * (1.0 - tick);
+        text += &format!(
+            "<path class=\"tick\" d=\"M{} {}h5\"/><text class=\"number\" x=\"{}\" y=\"{}\">{}</text>",
+            left + 16.0,
+            coordinate(y),
+            left + 25.0,
+            coordinate(y + 4.0),
+            short(tick)
+        );
+    }
+    text
+}

@@ -1,0 +1,49 @@
+//! A run as one self-contained page, and its plots as SVG.
+//!
+//! What a page shows is gathered once ([`Material`]); plots and tables are made from it here, so that the page is
+//! complete on paper and without JavaScript. The script that comes with it redraws the plots from the embedded
+//! numbers when another plane, step or cell is chosen.
+
+mod data;
+mod formulas;
+mod frame;
+mod heat_map;
+mod markup;
+mod material;
+mod numbers;
+mod page;
+mod palette;
+mod paths;
+mod picked;
+mod regions;
+mod results;
+mod section;
+mod tables;
+mod values;
+mod view;
+mod words;
+
+pub use material::{Material, MaterialOptions};
+pub use page::{ReportError, page};
+pub use results::{CROSS_CHECK, CrossCheckError, CrossChecks};
+
+use heat_map::heat_map;
+use section::section;
+
+/// A plot as an SVG file of its own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// What to call it, without an extension.
+    pub name: &'static str,
+    /// The SVG.
+    pub svg: String,
+}
+
+/// The plots of the page, as files: the value function with vector field and runs, and its cross-section.
+pub fn pictures(material: &Material<'_>) -> Vec<Picture> {
+    let view = material.first_view();
+    vec![
+        Picture { name: "value", svg: heat_map(material, &view).standalone() },
+        Picture { name: "section", svg: section(material, &view).standalone() },
+    ]
+}

@@ -1,0 +1,102 @@
+//! The value function along one dimension.
+
+use super::frame::Frame;
+use super::markup::{Plot, group};
+use super::material::Material;
+use super::numbers::{coordinate, short, subscripted};
+use super::regions::sides;
+use super::view::View;
+use crate::partition::Region;
+
+/// The size of the frame of a cross-section.
+const SIZE: (f64, f64) = (632.0, 220.0);
+
+/// The frame of a cross-section along one dimension.
+pub(super) fn section_frame(material: &Material<'_>, along: usize) -> Frame {
+    Frame::new(SIZE, material.range(along), (0.0, 1.0))
+}
+
+/// The value through the plane's cell, along the plane's first dimension of the state.
+pub(super) fn section(material: &Material<'_>, view: &View) -> Plot {
+    let id = "section";
+    let along = match view.across {
+        super::view::Axis::State(j) => j,
+        super::view::Axis::Time => view.up,
+    };
+    let frame = section_frame(material, along);
+    let name = subscripted("x", along + 1);
+    let content = format!(
+        "<defs>{}{}</defs>\n<g clip-path=\"url(#{id}-clip)\">\n{}{}</g>\n{}",
+        frame.clip(id),
+        super::regions::hatch(id),
+        group("regions", &bands(material, view, along, &frame)),
+        group("curve", &curve(material, view, along, &frame)),
+        group("axes", &frame.axes(&name, "promised probability"))
+    );
+    let fixed: Vec<_> = (0..material.dimension())
+        .filter(|&j| j != along)
+        .map(|j| format!("{} = {}", subscripted("x", j + 1), short(material.center(j, view.slice[j]))))
+        .collect();
+    let at = if fixed.is_empty() { String::new() } else { format!(" at {}", fixed.join(", ")) };
+    Plot {
+        id,
+        width: 720.0,
+        height: 284.0,
+        title: format!("{}: the promised probability along {name}{at}", material.problem().name),
+        description: "A step function, constant in every cell; goal and unsafe region are bands.".into(),
+        content,
+    }
+}
+
+/// The parts of the line that lie in the goal or the unsafe region.
+fn bands(material: &Material<'_>, view: &View, along: usize, frame: &Frame) -> String {
+    let on_line = |region: &&Region| {
+        (0..material.dimension()).filter(|&j| j != along).all(|j| {
+            let (lower, upper) = sides(region, j);
+            let (faces, i) = (&material.faces()[j], view.slice[j] as usize);
+            lower < faces[i + 1] && faces[i] < upper
+        })
+    };
+    let bottom = frame.top + frame.height;
+    let path = |list: &[Region]| -> String {
+        let band = |region: &Region| {
+            let (lower, upper) = sides(region, along);
+            let (lower, upper) = (lower.max(frame.x.from), upper.min(frame.x.to));
+            let [x0, x1] = [lower, upper].map(|x| coordinate(frame.x.at(x)));
+            if lower < upper { format!("M{x0} {}H{x1}V{bottom}H{x0}Z", frame.top) } else { String::new() }
+        };
+        list.iter().filter(on_line).map(band).collect()
+    };
+    let problem = material.problem();
+    let (avoid, goal) = (path(&problem.unsafe_), path(&problem.goal));
+    let mut text = String::new();
+    if !avoid.is_empty() {
+        text += &format!("<path fill=\"url(#section-hatch)\" d=\"{avoid}\"/>");
+    }
+    if !goal.is_empty() {
+        text += &format!("<path class=\"goal band\" d=\"{goal}\"/>");
+    }
+    text
+}
+
+/// The values as a step function, and the threshold if there is one.
+fn curve(material: &Material<'_>, view: &View, along: usize, frame: &Frame) -> String {
+    let values = material.values.at(view.step);
+    let mut coordinates = view.slice.clone();
+    let faces = &material.faces()[along];
+    let mut d = String::new();
+    for i in 0..faces.len() - 1 {
+        coordinates[along] = i as u32;
+        let value = values[material.problem().grid.cell(&coordinates).index()];
+        let (y, end) = (coordinate(frame.y.at(f64::from(value))), coordinate(frame.x.at(faces[i + 1])));
+        match i {
+            0 => d += &format!("M{} {y}H{end}", frame.left),
+            _ => d += &format!("V{y}H{end}"),
+        }
+    }
+    let threshold = material.problem().threshold.as_ref().map_or(String::new(), |threshold| {
+        let y = coordinate(frame.y.at(threshold.to_f64()));
+        format!("<path class=\"threshold\" d=\"M{} {y}h{}\"/>", frame.left, frame.width)
+    });
+    format!("{threshold}<path class=\"value\" d=\"{d}\"/>")
+}

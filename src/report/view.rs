@@ -1,0 +1,90 @@
+//! What a plot shows: two axes, a slice of the other dimensions, a step.
+
+use super::material::Material;
+use super::numbers::subscripted;
+use crate::partition::CellId;
+
+/// The most squares along one side of a heat map.
+const MOST_SQUARES: u32 = 256;
+
+/// An axis of a plot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Axis {
+    /// Grouped steps.
+    Time,
+    /// A dimension of the state, counted from 0.
+    State(usize),
+}
+
+/// A plane through the state space, or through one dimension and time.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct View {
+    pub(super) across: Axis,
+    pub(super) up: usize,
+    /// The coordinates of a cell that the plane goes through.
+    pub(super) slice: Vec<u32>,
+    /// The number of grouped steps elapsed, unless time is an axis.
+    pub(super) step: usize,
+}
+
+impl View {
+    /// The cell at column `i` and row `j`, and the step that it is looked at.
+    pub(super) fn cell(&self, material: &Material<'_>, i: u32, j: u32) -> (CellId, usize) {
+        let mut coordinates = self.slice.clone();
+        coordinates[self.up] = j;
+        let step = match self.across {
+            Axis::Time => i as usize,
+            Axis::State(dimension) => {
+                coordinates[dimension] = i;
+                self.step
+            }
+        };
+        (material.problem().grid.cell(&coordinates), step)
+    }
+
+    /// The numbers of columns and rows.
+    pub(super) fn size(&self, material: &Material<'_>) -> (u32, u32) {
+        let cells = |j: usize| material.problem().grid.axes()[j].cells();
+        let columns = match self.across {
+            Axis::Time => material.last_step() as u32 + 1,
+            Axis::State(j) => cells(j),
+        };
+        (columns, cells(self.up))
+    }
+
+    /// How many columns and rows one square of a heat map stands for.
+    pub(super) fn blocks(&self, material: &Material<'_>) -> (u32, u32) {
+        let (columns, rows) = self.size(material);
+        (columns.div_ceil(MOST_SQUARES), rows.div_ceil(MOST_SQUARES))
+    }
+
+    /// What is across, from where to where.
+    pub(super) fn range_across(&self, material: &Material<'_>) -> (f64, f64) {
+        match self.across {
+            Axis::Time => (-0.5, material.last_step() as f64 + 0.5),
+            Axis::State(j) => material.range(j),
+        }
+    }
+
+    /// The face before column `i`.
+    pub(super) fn face_across(&self, material: &Material<'_>, i: u32) -> f64 {
+        match self.across {
+            Axis::Time => f64::from(i) - 0.5,
+            Axis::State(j) => material.faces()[j][i as usize],
+        }
+    }
+
+    /// The names of the axes.
+    pub(super) fn names(&self, material: &Material<'_>) -> (String, String) {
+        let across = match self.across {
+            Axis::Time => material.time_name(),
+            Axis::State(j) => subscripted("x", j + 1),
+        };
+        (across, subscripted("x", self.up + 1))
+    }
+
+    /// The dimensions that are fixed.
+    pub(super) fn fixed(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.slice.len()).filter(|&j| j != self.up && self.across != Axis::State(j))
+    }
+}
