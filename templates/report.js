@@ -60,7 +60,7 @@ const enabled = (cell) => {
 
 // What is shown: a plane through the picked cell.
 const view = {across: data.view.across, up: data.view.up, cell: [...data.view.slice], step: data.view.step, along: null};
-const show = {arrows: true, runs: true, enabled: true};
+const show = {arrows: true, runs: true, between: false, enabled: true};
 let touched = false;
 
 const frameOf = (left, top, width, height, x, y) => ({
@@ -165,14 +165,15 @@ const arrows = (f) => {
 
 const project = (f, time, x) => [f.px(view.across === TIME ? time : x[view.across]), f.py(x[view.up])];
 const runs = (f) => {
-  let text = "";
+  const drawn = ["", ""];
   for (const run of data.runs) {
     const pairs = run.points.map(([time, ...x]) => project(f, time, x).map(at2).join(" "));
-    const line = "M" + pairs.join("L"), dots = run.asked.map((i) => `M${pairs[i]}h0`).join("");
-    text += `<path class="casing" d="${line}"/><path class="${run.class}" d="${line}"/><path class="dots ${run.class}" d="${dots}"/>`;
+    const asked = run.asked.map((i) => pairs[i]), dots = asked.map((pair) => `M${pair}h0`).join("");
+    const line = "M" + (show.between ? pairs : asked).join("L");
+    drawn[Number(!run.satisfied)] += `<path class="casing" d="${line}"/><path class="${run.class}" d="${line}"/><path class="dots ${run.class}" d="${dots}"/>`;
   }
   const [x, y] = project(f, 0, data.start);
-  return text + `<circle class="start" cx="${at2(x)}" cy="${at2(y)}" r="4.5"/>`;
+  return drawn.join("") + `<circle class="start" cx="${at2(x)}" cy="${at2(y)}" r="4.5"/>`;
 };
 
 // The picked cell, what is enabled there, and where its best action leads.
@@ -195,7 +196,7 @@ const pick = (f) => {
 };
 
 const section = () => {
-  const j = along(), f = frameOf(64, 16, 632, 220, range(j), [0, 1]), bottom = f.top + f.height;
+  const j = along(), f = frameOf(64, 16, 632, 220, range(j), [0, 1.05]), bottom = f.top + f.height;
   const coordinates = [...view.cell];
   let d = "";
   for (let i = 0; i < data.cells[j]; i++) {
@@ -213,9 +214,9 @@ const section = () => {
   put("regions", (avoid && `<path fill="url(#section-hatch)" d="${avoid}"/>`) + (goal && `<path class="goal band" d="${goal}"/>`));
   const wanted = data.threshold === null ? "" : `<path class="threshold" d="M${f.left} ${at2(f.py(data.threshold))}h${f.width}"/>`;
   put("curve", wanted + `<path class="value" d="${d}"/>`);
-  put("axes", axes(f, data.names[j], "promised probability"));
+  put("axes", axes(f, data.names[j], data.valueName));
   const at = data.names.map((name, l) => l === j ? "" : `${name} = ${short(center(l, view.cell[l]))}`).filter(Boolean);
-  $("section-title").textContent = `The promised probability along ${data.names[j]}` + (at.length ? " at " + at.join(", ") : "");
+  $("section-title").textContent = `${data.valueName} along ${data.names[j]}` + (at.length ? " at " + at.join(", ") : "");
 };
 
 const facts = () => {
@@ -241,7 +242,7 @@ const draw = () => {
   put("arrows", show.arrows ? arrows(f) : "");
   put("runs", show.runs ? runs(f) : "");
   put("axes", axes(f, view.across === TIME ? data.time : data.names[view.across], data.names[view.up]));
-  $("map-title").textContent = `The promised probability over ${view.across === TIME ? data.time : data.names[view.across]} and ${data.names[view.up]}`;
+  $("map-title").textContent = `${data.valueName} over ${view.across === TIME ? data.time : data.names[view.across]} and ${data.names[view.up]}`;
   redraw();
 };
 // What changes when another cell of the same plane is picked.
@@ -267,9 +268,11 @@ const controls = () => {
     html += `<label>${data.names[j]} <input type="range" data-slice="${j}" min="0" max="${data.cells[j] - 1}" value="${view.cell[j]}"> <output></output></label>`;
   if (hasTime && keptSteps > 0 && view.across !== TIME)
     html += `<label>steps elapsed <input type="range" id="step" min="0" max="${data.lastStep}" value="${view.step}"> <output></output></label>`;
-  for (const [name, text] of [["arrows", "vector field"], ["runs", "simulated runs"], ["enabled", "enabled actions"]])
-    if (name !== "enabled" || ranges)
-      html += `<label><input type="checkbox" data-show="${name}"${show[name] ? " checked" : ""}> ${text}</label>`;
+  const layers = [["arrows", "vector field"], ["runs", "simulated runs"]];
+  if (data.group > 1) layers.push(["between", "steps in between"]);
+  if (ranges) layers.push(["enabled", "enabled actions"]);
+  for (const [name, text] of layers)
+    html += `<label><input type="checkbox" data-show="${name}"${show[name] ? " checked" : ""}> ${text}</label>`;
   $("controls").innerHTML = html;
   $("controls").hidden = false;
   outputs();

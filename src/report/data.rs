@@ -49,6 +49,7 @@ pub(super) fn embed(material: &Material<'_>, view: &View) -> Embedded {
     let bytes: Vec<u8> = material.values.all().flat_map(f32::to_le_bytes).collect();
     let value = json!({
         "names": (0..material.dimension()).map(|j| subscripted("x", j + 1)).collect::<Vec<_>>(),
+        "valueName": material.value_name(),
         "time": material.time_name(),
         "group": problem.group_steps,
         "horizon": problem.horizon,
@@ -143,6 +144,7 @@ fn runs(material: &Material<'_>) -> Value {
         json!({
             "class": class(trajectory),
             "points": points.collect::<Vec<_>>(),
+            "satisfied": trajectory.outcome.satisfied,
             "asked": asked.map(|(i, _)| i).collect::<Vec<_>>(),
         })
     };

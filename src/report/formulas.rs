@@ -15,7 +15,7 @@ pub(super) fn model(material: &Material<'_>) -> String {
     let problem = material.problem();
     let d = problem.group_steps;
     let mut text = format!("<p>One step:</p>\n{}", system(&problem.step_system, "A", "B", "q", "u"));
-    text += &format!("<p>Inputs: {}</p>\n", input_set(&problem.step_input, "u", "U"));
+    text += &format!("<p>Inputs {}</p>\n", input_set(&problem.step_input, "u", "U"));
     if d > 1 {
         text += &format!(
             "<p>{d} steps grouped into one, with the inputs of the first step first, and inputs in {} :</p>\n{}",
@@ -27,17 +27,20 @@ pub(super) fn model(material: &Material<'_>) -> String {
         let layers = &stabilizer.layers;
         let input = if d > 1 { "û" } else { "u" };
         let about = layers.about();
-        let centre = if is_zero(about) { String::new() } else { format!("<mo>−</mo>{}", matrix(about)) };
+        let state = match is_zero(about) {
+            true => "<mi>x</mi>".to_owned(),
+            false => format!("<mo>(</mo><mi>x</mi><mo>−</mo>{}<mo>)</mo>", matrix(about)),
+        };
         text += &format!(
             "<p>Two layers: the lower one stabilises, the upper one chooses u′ (eigenvalues of the closed loop: {}).</p>\n{}",
             eigenvalues(&layers.eigenvalues()),
             block(&format!(
-                "<mi>{input}</mi><mo>=</mo><mo>−</mo>{}<mo>(</mo><mi>x</mi>{centre}<mo>)</mo><mo>+</mo><msup><mi>u</mi><mo>′</mo></msup>",
+                "<mi>{input}</mi><mo>=</mo><mo>−</mo>{}{state}<mo>+</mo><msup><mi>u</mi><mo>′</mo></msup>",
                 matrix(layers.gain())
             ))
         );
         text += &format!(
-            "<p>Inputs left to the upper layer: {}</p>\n",
+            "<p>Inputs left to the upper layer, {}</p>\n",
             input_set(layers.abstract_input(), "u′", "U′")
         );
     }
@@ -107,7 +110,7 @@ fn matrix(m: &ExactMatrix) -> String {
     let entry = |i, j| format!("<mtd><mn>{}</mn></mtd>", short(to_f64(m.get(i, j))));
     let row = |i| format!("<mtr>{}</mtr>", (0..m.columns()).map(|j| entry(i, j)).collect::<String>());
     let rows: String = (0..m.rows()).map(row).collect();
-    format!("<mrow><mo>[</mo><mtable>{rows}</mtable><mo>]</mo></mrow>")
+    format!("<mtable>{rows}</mtable>")
 }
 
 fn is_zero(m: &ExactMatrix) -> bool {
@@ -121,7 +124,7 @@ fn input_set(set: &Polytope, input: &str, name: &str) -> String {
             let (lower, upper) = (short(*lower), short(*upper));
             format!("{} ∈ [{lower}, {upper}]", subscripted(input, j + 1))
         };
-        return format!("{name}: {}.", sides.iter().enumerate().map(interval).collect::<Vec<_>>().join(", "));
+        return format!("{name}: {}", sides.iter().enumerate().map(interval).collect::<Vec<_>>().join(", "));
     }
     let offsets = ExactMatrix::from_fn(set.offsets().len(), 1, |i, _| set.offsets()[i].clone());
     let (normals, offsets) = (matrix(set.normals()), matrix(&offsets));

@@ -42,7 +42,7 @@ pub(super) fn heat_map(material: &Material<'_>, view: &View) -> Plot {
         id,
         width: 720.0,
         height: 484.0,
-        title: format!("{}: the promised probability over {across} and {up}", material.problem().name),
+        title: format!("{}: {} over {across} and {up}", material.problem().name, material.value_name()),
         description: description(material, view),
         content,
     }
@@ -56,9 +56,10 @@ fn description(material: &Material<'_>, view: &View) -> String {
         .collect();
     let at = if fixed.is_empty() { String::new() } else { format!(" at {}", fixed.join(", ")) };
     format!(
-        "Lower bounds on the probability of success{at}, from dark (0) to light (1); the unsafe region is hatched, the \
+        "The {}{at}, from dark (0) to light (1); the unsafe region is hatched, the \
          goal outlined; arrows point from the centres of cells towards the mean of the next state; lines are {} \
          simulated runs.",
+        material.value_name(),
         material.trajectories.len()
     )
 }

@@ -126,10 +126,19 @@ impl<'a> Material<'a> {
         (longest.unwrap_or(1).max(1) as usize).min(MOST_COLUMNS)
     }
 
+    /// What values are called: in reference mode nothing is promised.
+    pub(super) fn value_name(&self) -> &'static str {
+        if self.run.abstraction.guarantee.is_some() {
+            "promised probability"
+        } else {
+            "value (nothing is promised)"
+        }
+    }
+
     pub(super) fn time_name(&self) -> String {
         match self.problem().group_steps {
             1 => "step k".to_owned(),
-            d => format!("grouped step k (of {d} steps each)"),
+            d => format!("grouped step k ({d} steps each)"),
         }
     }
 

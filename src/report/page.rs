@@ -46,6 +46,7 @@ pub fn page(material: &Material<'_>) -> Result<String, ReportError> {
         ("guarantee", words::guarantee(material)),
         ("warnings", words::warnings(run)),
         ("map", heat_map(material, &view).inline()),
+        ("value_name", material.value_name().to_owned()),
         ("about_runs", words::about_runs(material)),
         ("facts", picked_cell(material)),
         ("section", section(material, &view).inline()),

@@ -56,29 +56,30 @@ fn arrow((x, y): (f64, f64), (dx, dy): (f64, f64), most: f64) -> String {
     format!("M{} {}L{tip}M{}L{tip}L{}", coordinate(x), coordinate(y), side(1.0), side(-1.0))
 }
 
-/// The runs: lines through all steps, dots where the controller was asked.
+/// The runs: lines through the grouped instants, the failed ones last and so on top.
 pub(super) fn runs(material: &Material<'_>, view: &View, frame: &Frame) -> String {
     let d = material.problem().group_steps as f64;
-    let mut text = String::new();
+    let mut drawn = [String::new(), String::new()];
     for trajectory in &material.trajectories {
-        let point = |step: u64, state: &[f64]| {
+        let pair = |step: u64, state: &[f64]| {
             let across = match view.across {
                 Axis::Time => step as f64 / d,
                 Axis::State(dimension) => state[dimension],
             };
-            (frame.x.at(across), frame.y.at(state[view.up]))
+            format!("{} {}", coordinate(frame.x.at(across)), coordinate(frame.y.at(state[view.up])))
         };
-        let points: Vec<_> = trajectory.steps.iter().map(|step| point(step.step, &step.state)).collect();
-        let pairs: Vec<_> =
-            points.iter().map(|(x, y)| format!("{} {}", coordinate(*x), coordinate(*y))).collect();
-        let line = format!("M{}", pairs.join("L"));
+        let asked = trajectory.steps.iter().filter(|step| step.decision.is_some());
+        let pairs: Vec<_> = asked.map(|step| pair(step.step, &step.state)).collect();
         let class = class(trajectory);
-        text += &format!("<path class=\"casing\" d=\"{line}\"/><path class=\"{class}\" d=\"{line}\"/>");
-        let asked = trajectory.steps.iter().zip(&pairs).filter(|(step, _)| step.decision.is_some());
         // A line of no length with round ends is a dot.
-        let dots: String = asked.map(|(_, pair)| format!("M{pair}h0")).collect();
-        text += &format!("<path class=\"dots {class}\" d=\"{dots}\"/>");
+        let dots: String = pairs.iter().map(|pair| format!("M{pair}h0")).collect();
+        let line = format!("M{}", pairs.join("L"));
+        drawn[usize::from(!trajectory.outcome.satisfied)] += &format!(
+            "<path class=\"casing\" d=\"{line}\"/><path class=\"{class}\" d=\"{line}\"/><path class=\"dots {class}\" \
+             d=\"{dots}\"/>"
+        );
     }
+    let text = drawn.concat();
     let start: Vec<_> = match view.across {
         Axis::Time => vec![0.0, material.start[view.up]],
         Axis::State(dimension) => vec![material.start[dimension], material.start[view.up]],

@@ -39,7 +39,7 @@ pub(super) fn facts(
     vec![
         ("cell", "cell", sides.collect::<Vec<_>>().join(", ")),
         ("kind", "kind", kind.to_owned()),
-        ("value", "value (lower bound)", value),
+        ("value", "value", value),
         ("enabled", "enabled actions", enabled),
         ("best", "best action", best),
         ("leads", "leads to, on average", leads),

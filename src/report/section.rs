@@ -13,7 +13,7 @@ const SIZE: (f64, f64) = (632.0, 220.0);
 
 /// The frame of a cross-section along one dimension.
 pub(super) fn section_frame(material: &Material<'_>, along: usize) -> Frame {
-    Frame::new(SIZE, material.range(along), (0.0, 1.0))
+    Frame::new(SIZE, material.range(along), (0.0, 1.05))
 }
 
 /// The value through the plane's cell, along the plane's first dimension of the state.
@@ -31,7 +31,7 @@ pub(super) fn section(material: &Material<'_>, view: &View) -> Plot {
         super::regions::hatch(id),
         group("regions", &bands(material, view, along, &frame)),
         group("curve", &curve(material, view, along, &frame)),
-        group("axes", &frame.axes(&name, "promised probability"))
+        group("axes", &frame.axes(&name, material.value_name()))
     );
     let fixed: Vec<_> = (0..material.dimension())
         .filter(|&j| j != along)
@@ -42,7 +42,7 @@ pub(super) fn section(material: &Material<'_>, view: &View) -> Plot {
         id,
         width: 720.0,
         height: 284.0,
-        title: format!("{}: the promised probability along {name}{at}", material.problem().name),
+        title: format!("{}: {} along {name}{at}", material.problem().name, material.value_name()),
         description: "A step function, constant in every cell; goal and unsafe region are bands.".into(),
         content,
     }

@@ -55,11 +55,11 @@ pub(super) fn simulation(material: &Material<'_>) -> String {
         material.options.seed
     );
     let bound = material.controller.bound_at(&material.start);
-    let word = if frequency.contradicts(bound) { "contradicts" } else { "agrees with" };
+    let word = if frequency.contradicts(bound) { "contradicts" } else { "does not contradict" };
     format!(
-        "<p>Satisfied in {} of the runs, [{:.4}, {:.4}] with confidence 0.99 (Clopper–Pearson); this {word} the computed \
-         lower bound, {}.</p>\n{}",
-        short(frequency.frequency),
+        "<p>The share of runs that satisfied the task is {:.4}, so that its probability lies in [{:.4}, {:.4}] with \
+         confidence 0.99 (Clopper–Pearson). This {word} the computed lower bound, {}.</p>\n{}",
+        frequency.frequency,
         frequency.lower,
         frequency.upper,
         crate::controller::export::lower_bound_text(bound),
@@ -72,8 +72,9 @@ pub(super) fn sizes(material: &Material<'_>) -> String {
     let manifest = &material.run.manifest;
     let grid = &material.problem().grid;
     let per_axis: Vec<_> = grid.axes().iter().map(|axis| axis.cells().to_string()).collect();
+    let factors = if per_axis.len() > 1 { per_axis.join(" × ") + " = " } else { String::new() };
     let mut rows = vec![
-        row(&["cells", &format!("{} = {}", per_axis.join(" × "), count(u64::from(grid.num_cells())))]),
+        row(&["cells", &(factors + &count(u64::from(grid.num_cells())))]),
         row(&["targets", &count(material.run.abstraction.targets.len() as u64)]),
         row(&["states", &count(manifest.states)]),
         row(&["choices", &count(manifest.choices)]),

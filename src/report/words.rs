@@ -6,7 +6,6 @@ use super::numbers::{short, tuple};
 use crate::controller::export::{Promise, lower_bound_text};
 use crate::numeric::shortest_decimal;
 use crate::run_directory::Run;
-use crate::spec::StepNoise;
 
 /// What is promised, and what it rests on.
 pub(super) fn guarantee(material: &Material<'_>) -> String {
@@ -76,13 +75,7 @@ pub(super) fn about_runs(material: &Material<'_>) -> String {
     };
     let between = match material.problem().group_steps {
         1 => String::new(),
-        d if !matches!(material.problem().noise.of_one_step, StepNoise::Unknown) => {
-            format!(" Dots are the grouped instants, every {d} steps: the promise is about these.")
-        }
-        d => format!(
-            " Dots are the grouped instants, every {d} steps: the promise is about these. The samples are of {d} steps \
-             together, so that states in between are drawn without noise."
-        ),
+        d => format!(" They join the grouped instants, every {d} steps: the promise is about these."),
     };
     format!(
         "Lines are the first {} simulated runs from x = {} ({chosen}), seed {}; those that failed are dashed.{between}",

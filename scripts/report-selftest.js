@@ -1,0 +1,125 @@
+// Drives a report like a reader would, and leaves the outcome in <html data-selftest="…">.
+// scripts/check-report.sh puts it at the end of a page and opens that in a browser.
+"use strict";
+(() => {
+const failures = [];
+const check = (holds, what) => { if (!holds) failures.push(what); };
+const get = (selector) => document.querySelector(selector);
+const input = (element, value) => {
+  if (element.type === "checkbox") element.checked = value; else element.value = value;
+  element.dispatchEvent(new Event("input", {bubbles: true}));
+};
+const drawing = (selector) => get(selector).innerHTML;
+const layers = ["#map .heat", "#map .regions", "#map .arrows", "#map .runs", "#map .axes",
+  "#section .regions", "#section .curve", "#section .axes"];
+const facts = () => [...document.querySelectorAll("#facts dd")].map((fact) => fact.textContent);
+
+// Two drawings are the same if their numbers are, up to the last digit.
+const number = /-?\d+(?:\.\d+)?/g;
+const same = (a, b) => {
+  const [x, y] = [a, b].map((text) => (text.match(number) ?? []).map(Number));
+  return a.replace(number, "#") === b.replace(number, "#") && x.every((v, i) => Math.abs(v - y[i]) < 0.021);
+};
+
+try {
+  const map = get("#map"), n = document.querySelectorAll("#up option").length || 1;
+  const before = layers.map(drawing), told = facts();
+  check(!get("#controls").hidden, "no controls");
+  const arrows = get("[data-show=arrows]");
+  input(arrows, true);
+  layers.forEach((layer, i) => check(same(before[i], drawing(layer)), `${layer} is redrawn differently`));
+  check(told.join() === facts().join(), `facts are told differently: ${told.join("; ")} | ${facts().join("; ")}`);
+  input(arrows, false);
+  check(drawing("#map .arrows") === "", "arrows stay");
+  input(arrows, true);
+
+  // A click on the middle of the map.
+  const place = map.getBoundingClientRect(), at = (x, y) => ({
+    bubbles: true,
+    clientX: place.left + x / 720 * place.width,
+    clientY: place.top + y / 484 * place.height,
+  });
+  const clicks = [[344, 226], [200, 340], [300, 120], [420, 300], [344, 380]];
+  const seen = new Set();
+  let steered = 0;
+  for (const [x, y] of clicks) {
+    map.dispatchEvent(new MouseEvent("click", at(x, y)));
+    seen.add(get("#fact-cell").textContent + get("#fact-value").textContent);
+    check(get("#map .picked") !== null, "the picked cell is not shown");
+    const leads = get("#map .leads") !== null, best = get("#fact-best").textContent;
+    check(leads === best.startsWith("steer to d = ("), `best action "${best}" but leads drawn: ${leads}`);
+    if (leads) {
+      steered++;
+      check(Number(get("#fact-enabled").textContent) > 0, "steering without an enabled action");
+      check(get("#map .enabled") !== null, "enabled actions are not shown");
+    }
+    check(get("#picked-spoken").textContent.startsWith(get("#fact-cell").textContent), "nothing is spoken");
+  }
+  check(seen.size === clicks.length, "clicks on different places pick the same cell");
+  check(steered > 0, "no click found a cell with an action");
+  map.dispatchEvent(new MouseEvent("click", at(10, 10)));
+  check(seen.has(get("#fact-cell").textContent + get("#fact-value").textContent), "a click outside picks a cell");
+
+  // The keyboard.
+  const press = (key) => map.dispatchEvent(new KeyboardEvent("keydown", {key, bubbles: true, cancelable: true}));
+  check(map.tabIndex === 0, "the map cannot be focused");
+  const here = facts().join();
+  press("ArrowUp");
+  check(facts().join() !== here, "arrow keys do nothing");
+  press("ArrowDown");
+  check(facts().join() === here, "arrow keys do not go back");
+  press("ArrowRight");
+  check(facts().join() !== here, "arrow keys do nothing sideways");
+  press("Home");
+  check(facts()[0] === told[0], "Home does not go back to the start");
+
+  // Other planes.
+  const step = get("#step");
+  if (step) {
+    const first = drawing("#map .heat");
+    input(step, step.max);
+    check(drawing("#map .heat") !== first, "the step changes nothing");
+    check(step.nextElementSibling.textContent !== "", "the step is not told");
+    input(step, 0);
+    check(drawing("#map .heat") === first, "the step does not go back");
+  }
+  const slice = get("[data-slice]");
+  if (slice) {
+    const first = drawing("#map .heat"), value = slice.value;
+    input(slice, value === "0" ? slice.max : 0);
+    check(drawing("#map .heat") !== first, "the slice changes nothing");
+    input(slice, value);
+    check(drawing("#map .heat") === first, "the slice does not go back");
+  }
+  if (n > 1) {
+    const first = drawing("#map .heat");
+    input(get("#up"), 0);
+    check(get("#across").value === "1" && get("#up").value === "0", "the axes do not swap");
+    check(drawing("#map .heat") !== first, "other axes, same map");
+    check(get("#map .axes").textContent.includes("x₂x₁"), "axes are not named");
+    for (const option of get("#across").options) {
+      input(get("#across"), option.value);
+      check(!/NaN|Infinity|undefined/.test(map.outerHTML), `the map across ${option.text} has no numbers`);
+      check(get("#across").value !== get("#up").value, "a plane with one axis only");
+    }
+    input(get("#across"), 0);
+    input(get("#up"), 1);
+    check(drawing("#map .heat") === first, "the axes do not go back");
+    const curve = drawing("#section .curve");
+    input(get("#along"), 1);
+    check(drawing("#section .curve") !== curve && get("#section .axes").textContent.includes("x₂"), "one cross-section only");
+  }
+  const between = get("[data-show=between]");
+  if (between) {
+    const first = drawing("#map .runs");
+    input(between, true);
+    check(drawing("#map .runs").length > first.length, "no steps in between");
+  }
+  check(!/NaN|Infinity|undefined/.test(document.body.innerHTML.replace(/<script[\s\S]*?<\/script>/g, "")), "NaN is shown");
+  const wide = document.documentElement;
+  check(wide.scrollWidth <= wide.clientWidth, `the page is ${wide.scrollWidth} wide, the window ${wide.clientWidth}`);
+} catch (error) {
+  failures.push(String(error.stack ?? error));
+}
+document.documentElement.dataset.selftest = failures.length ? `failed: ${failures.join(" | ")}` : "passed";
+})();
