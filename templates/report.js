@@ -344,6 +344,7 @@ map.addEventListener("keydown", (event) => {
     return move(i + by[0], view.cell[view.up] + by[1]);
   }
   view.cell = [...data.view.slice];
+  view.step = data.view.step;
   touched = true;
   controls();
   draw();

@@ -3,7 +3,7 @@
 use super::frame::Frame;
 use super::markup::{Plot, group};
 use super::material::Material;
-use super::numbers::{coordinate, short, subscripted};
+use super::numbers::{coordinate, short};
 use super::palette::{LEVELS, colour, level};
 use super::paths::{arrows, runs};
 use super::regions::{hatch, regions};
@@ -12,15 +12,10 @@ use super::view::View;
 /// The size of the frame of the map.
 const SIZE: (f64, f64) = (560.0, 420.0);
 
-/// The frame of a heat map.
-pub(super) fn map_frame(material: &Material<'_>, view: &View) -> Frame {
-    Frame::new(SIZE, view.range_across(material), material.range(view.up))
-}
-
 /// The value function over a plane, with regions, vector field and runs.
 pub(super) fn heat_map(material: &Material<'_>, view: &View) -> Plot {
     let id = "map";
-    let frame = map_frame(material, view);
+    let frame = Frame::new(SIZE, view.range_across(material), material.range(view.up));
     let (across, up) = view.names(material);
     let inside = [
         group("heat", &squares(material, view, &frame)),
@@ -50,11 +45,7 @@ pub(super) fn heat_map(material: &Material<'_>, view: &View) -> Plot {
 
 /// What a heat map shows, in words.
 fn description(material: &Material<'_>, view: &View) -> String {
-    let fixed: Vec<_> = view
-        .fixed()
-        .map(|j| format!("{} = {}", subscripted("x", j + 1), short(material.center(j, view.slice[j]))))
-        .collect();
-    let at = if fixed.is_empty() { String::new() } else { format!(" at {}", fixed.join(", ")) };
+    let at = view.at(material, view.fixed());
     format!(
         "The {}{at}, from dark (0) to light (1); the unsafe region is hatched, the \
          goal outlined; arrows point from the centres of cells towards the mean of the next state; lines are {} \

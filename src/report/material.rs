@@ -3,7 +3,7 @@
 use super::results::CrossChecks;
 use super::values::StepValues;
 use super::view::{Axis, View};
-use crate::controller::{Controller, Noise, Simulation, Tally, Trajectory};
+use crate::controller::{Controller, Decision, Noise, Simulation, Tally, Trajectory};
 use crate::numeric::to_f64;
 use crate::partition::{CellId, CellKind};
 use crate::progress::Progress;
@@ -156,8 +156,7 @@ impl<'a> Material<'a> {
 
     /// The mean of the state after the action of `cell` at `step`; `None` if there is none.
     pub(super) fn mean_successor(&self, cell: CellId, step: usize) -> Option<Vec<f64>> {
-        let crate::controller::Decision::Steer { target } = self.controller.decide_in(cell, step as u64)
-        else {
+        let Decision::Steer { target } = self.controller.decide_in(cell, step as u64) else {
             return None;
         };
         let point = self.controller.target_point(target);

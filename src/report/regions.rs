@@ -43,12 +43,8 @@ pub(super) fn hatch(id: &str) -> String {
 
 /// The part of a region in the plane, as a path; `None` if it is elsewhere.
 fn rectangle(material: &Material<'_>, view: &View, frame: &Frame, region: &Region) -> Option<String> {
-    for j in view.fixed() {
-        let (lower, upper) = sides(region, j);
-        let (faces, i) = (&material.faces()[j], view.slice[j] as usize);
-        if upper <= faces[i] || faces[i + 1] <= lower {
-            return None;
-        }
+    if !view.fixed().all(|j| view.meets(material, region, j)) {
+        return None;
     }
     let across = match view.across {
         Axis::Time => (f64::NEG_INFINITY, f64::INFINITY),

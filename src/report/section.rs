@@ -3,41 +3,32 @@
 use super::frame::Frame;
 use super::markup::{Plot, group};
 use super::material::Material;
-use super::numbers::{coordinate, short, subscripted};
-use super::regions::sides;
-use super::view::View;
+use super::numbers::{coordinate, subscripted};
+use super::regions::{hatch, sides};
+use super::view::{Axis, View};
 use crate::partition::Region;
 
 /// The size of the frame of a cross-section.
 const SIZE: (f64, f64) = (632.0, 220.0);
 
-/// The frame of a cross-section along one dimension.
-pub(super) fn section_frame(material: &Material<'_>, along: usize) -> Frame {
-    Frame::new(SIZE, material.range(along), (0.0, 1.05))
-}
-
 /// The value through the plane's cell, along the plane's first dimension of the state.
 pub(super) fn section(material: &Material<'_>, view: &View) -> Plot {
     let id = "section";
     let along = match view.across {
-        super::view::Axis::State(j) => j,
-        super::view::Axis::Time => view.up,
+        Axis::State(j) => j,
+        Axis::Time => view.up,
     };
-    let frame = section_frame(material, along);
+    let frame = Frame::new(SIZE, material.range(along), (0.0, 1.05));
     let name = subscripted("x", along + 1);
     let content = format!(
         "<defs>{}{}</defs>\n<g clip-path=\"url(#{id}-clip)\">\n{}{}</g>\n{}",
         frame.clip(id),
-        super::regions::hatch(id),
+        hatch(id),
         group("regions", &bands(material, view, along, &frame)),
         group("curve", &curve(material, view, along, &frame)),
         group("axes", &frame.axes(&name, material.value_name()))
     );
-    let fixed: Vec<_> = (0..material.dimension())
-        .filter(|&j| j != along)
-        .map(|j| format!("{} = {}", subscripted("x", j + 1), short(material.center(j, view.slice[j]))))
-        .collect();
-    let at = if fixed.is_empty() { String::new() } else { format!(" at {}", fixed.join(", ")) };
+    let at = view.at(material, (0..material.dimension()).filter(|&j| j != along));
     Plot {
         id,
         width: 720.0,
@@ -51,11 +42,7 @@ pub(super) fn section(material: &Material<'_>, view: &View) -> Plot {
 /// The parts of the line that lie in the goal or the unsafe region.
 fn bands(material: &Material<'_>, view: &View, along: usize, frame: &Frame) -> String {
     let on_line = |region: &&Region| {
-        (0..material.dimension()).filter(|&j| j != along).all(|j| {
-            let (lower, upper) = sides(region, j);
-            let (faces, i) = (&material.faces()[j], view.slice[j] as usize);
-            lower < faces[i + 1] && faces[i] < upper
-        })
+        (0..material.dimension()).filter(|&j| j != along).all(|j| view.meets(material, region, j))
     };
     let bottom = frame.top + frame.height;
     let path = |list: &[Region]| -> String {

@@ -1,8 +1,9 @@
 //! What a plot shows: two axes, a slice of the other dimensions, a step.
 
 use super::material::Material;
-use super::numbers::subscripted;
-use crate::partition::CellId;
+use super::numbers::{short, subscripted};
+use super::regions::sides;
+use crate::partition::{CellId, Region};
 
 /// The most squares along one side of a heat map.
 const MOST_SQUARES: u32 = 256;
@@ -81,6 +82,21 @@ impl View {
             Axis::State(j) => subscripted("x", j + 1),
         };
         (across, subscripted("x", self.up + 1))
+    }
+
+    /// ` at x₃ = 1, …`: where the centre of the cell lies in some dimensions; nothing for none.
+    pub(super) fn at(&self, material: &Material<'_>, dimensions: impl Iterator<Item = usize>) -> String {
+        let center =
+            |j: usize| format!("{} = {}", subscripted("x", j + 1), short(material.center(j, self.slice[j])));
+        let centers: Vec<_> = dimensions.map(center).collect();
+        if centers.is_empty() { String::new() } else { format!(" at {}", centers.join(", ")) }
+    }
+
+    /// Whether a region meets the cell in one dimension.
+    pub(super) fn meets(&self, material: &Material<'_>, region: &Region, dimension: usize) -> bool {
+        let (lower, upper) = sides(region, dimension);
+        let (faces, i) = (&material.faces()[dimension], self.slice[dimension] as usize);
+        lower < faces[i + 1] && faces[i] < upper
     }
 
     /// The dimensions that are fixed.

@@ -1,0 +1,320 @@
+//! Reports: complete, self-contained, well-formed, truthful; driven in a real browser if there is one.
+#![allow(missing_docs, clippy::unwrap_used)]
+
+mod common;
+
+use assert_cmd::Command;
+use common::{document, reference_mode, root, shipped_models};
+use dynabs::abstraction::compile;
+use dynabs::controller::Controller;
+use dynabs::report::{CROSS_CHECK, CrossChecks, Material, MaterialOptions, Picture, page, pictures};
+use dynabs::run_directory::{Manifest, Run, WriteOptions, write_run};
+use dynabs::solver::{Answer, SolverOptions};
+use dynabs::spec::Problem;
+use serde_json::Value;
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use tempfile::TempDir;
+
+/// A run directory of a shipped model.
+fn compiled(scratch: &TempDir, model: &str, sets: &[&str]) -> PathBuf {
+    let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
+    let document = document(model, &sets);
+    let problem = Problem::from_document(&document).unwrap();
+    let abstraction = compile(&problem, &()).unwrap();
+    let manifest = Manifest::new(&document, "", &problem, &abstraction);
+    let directory = scratch.path().join(model);
+    let options = WriteOptions { force: true, ..WriteOptions::default() };
+    write_run(&directory, &document, &problem, &abstraction, manifest, options, &()).unwrap();
+    directory
+}
+
+struct Reported {
+    answer: Answer,
+    run: Run,
+    page: String,
+    pictures: Vec<Picture>,
+}
+
+fn reported(directory: &Path, times: Vec<(&'static str, Duration)>) -> Reported {
+    let run = Run::open(directory, &()).unwrap();
+    let solver = SolverOptions { policy: true, ..SolverOptions::default() };
+    let answer = run.solve(&solver).unwrap();
+    let controller = Controller::new(&run.problem, &run.abstraction, &answer).unwrap();
+    let cross_checks = CrossChecks::read(directory).unwrap();
+    let options = MaterialOptions { seed: 1, runs: 300, drawn: 12, times, cross_checks };
+    let material = Material::new(&run, &answer, &controller, options, &solver, &()).unwrap();
+    let (page, pictures) = (page(&material).unwrap(), pictures(&material));
+    Reported { answer, run, page, pictures }
+}
+
+/// The text between two marks.
+fn between<'a>(text: &'a str, start: &str, end: &str) -> &'a str {
+    text.split_once(start).unwrap().1.split_once(end).unwrap().0
+}
+
+fn data(page: &str) -> Value {
+    serde_json::from_str(between(page, "<script type=\"application/json\" id=\"data\">", "</script>"))
+        .unwrap()
+}
+
+/// Every element that is opened is closed, in order; attributes are quoted; no stray `<` or `&`.
+fn assert_well_formed(markup: &str) {
+    let mut open: Vec<&str> = vec![];
+    let mut rest = markup;
+    while let Some((text, after)) = rest.split_once('<') {
+        for entity in text.split('&').skip(1) {
+            let name = entity.split_once(';').unwrap_or_else(|| panic!("a stray & before {entity:.40}")).0;
+            assert!(["amp", "lt", "gt", "quot", "#39"].contains(&name), "&{name};");
+        }
+        let (tag, after) = after.split_once('>').unwrap();
+        rest = after;
+        if tag.starts_with("!DOCTYPE") {
+            continue;
+        }
+        if let Some(name) = tag.strip_prefix('/') {
+            assert_eq!(open.pop(), Some(name), "before {after:.60}");
+            continue;
+        }
+        assert_eq!(tag.matches('"').count() % 2, 0, "<{tag}>");
+        let name = tag.split([' ', '\n', '/']).next().unwrap();
+        if ["script", "style"].contains(&name) {
+            rest = after.split_once(&format!("</{name}>")).unwrap().1;
+        } else if name != "meta" && !tag.ends_with('/') {
+            open.push(name);
+        }
+    }
+    assert_eq!(open, Vec::<&str>::new());
+}
+
+/// Nothing is loaded: the only addresses are names of namespaces.
+fn assert_self_contained(text: &str) {
+    let namespaces = ["http://www.w3.org/2000/svg\"", "http://www.w3.org/1998/Math/MathML\""];
+    for (i, _) in text.match_indices("http") {
+        let known = namespaces.iter().any(|name| text[i..].starts_with(name));
+        assert!(known || text[i..].starts_with("http-equiv"), "{:.60}", &text[i..]);
+    }
+    for sign in [" src=", " href=", "@import", "url(\"", "url('", "//cdn"] {
+        assert!(!text.contains(sign), "{sign}");
+    }
+    assert_eq!(text.matches("url(").count(), text.matches("url(#").count());
+}
+
+fn assert_numbers(svg: &str) {
+    for wrong in ["NaN", "inf", "null"] {
+        assert!(!svg.contains(wrong), "{wrong}");
+    }
+    let mut numbers = 0;
+    for path in svg.split(" d=\"").skip(1) {
+        let path = path.split('"').next().unwrap();
+        for number in
+            path.split(|c: char| c.is_ascii_alphabetic() || c == ' ').filter(|text| !text.is_empty())
+        {
+            let number: f64 = number.parse().unwrap_or_else(|_| panic!("{number}"));
+            assert!(number.is_finite() && number.abs() < 1e7, "{number}");
+            numbers += 1;
+        }
+    }
+    assert!(numbers > 20, "{numbers} numbers only");
+}
+
+fn decoded(base64: &str) -> Vec<u8> {
+    let digit = |c: u8| match c {
+        b'A'..=b'Z' => u32::from(c - b'A'),
+        b'a'..=b'z' => u32::from(c - b'a') + 26,
+        b'0'..=b'9' => u32::from(c - b'0') + 52,
+        b'+' => 62,
+        _ => 63,
+    };
+    let padding = base64.matches('=').count();
+    let mut bytes: Vec<u8> = base64
+        .as_bytes()
+        .chunks(4)
+        .flat_map(|four| {
+            let bits = four.iter().fold(0, |bits, &c| bits << 6 | if c == b'=' { 0 } else { digit(c) });
+            bits.to_be_bytes()[1..].to_vec()
+        })
+        .collect();
+    bytes.truncate(bytes.len() - padding);
+    bytes
+}
+
+/// What is embedded is what was computed, rounded down.
+fn assert_truthful(reported: &Reported) {
+    let Reported { answer, run, page, .. } = reported;
+    let data = data(page);
+    let bytes = decoded(data["values"]["data"].as_str().unwrap());
+    let values: Vec<f64> =
+        bytes.chunks_exact(4).map(|bytes| f64::from(f32::from_le_bytes(bytes.try_into().unwrap()))).collect();
+    let cells = run.problem.grid.num_cells() as usize;
+    let steps = run.problem.horizon.unwrap_or(0) as usize + 1;
+    assert_eq!(values.len(), cells * steps);
+    for (value, &state) in values.iter().zip(&run.abstraction.state_of_cell) {
+        let exact = answer.values.lower[state as usize];
+        assert!(*value <= exact && exact - value < 1e-6, "{value} for {exact}");
+    }
+    // With nothing left to do only the goal counts, and less time never helps.
+    if steps > 1 {
+        assert!(values[cells * (steps - 1)..].iter().all(|&value| value == 0.0 || value == 1.0));
+        assert!((0..cells * (steps - 1)).all(|i| values[i] >= values[i + cells]));
+    }
+    let model = &run.abstraction.model;
+    let enabled: usize = run.abstraction.state_of_cell.iter().map(|&s| model.choices().ranges(s).len()).sum();
+    let width = match data["ranges"]["length"]["type"].as_str().unwrap() {
+        "u8" => 1,
+        "u16" => 2,
+        _ => 4,
+    };
+    assert_eq!(decoded(data["ranges"]["length"]["data"].as_str().unwrap()).len(), enabled * width);
+}
+
+#[test]
+fn every_shipped_model_in_both_modes() {
+    let scratch = TempDir::new().unwrap();
+    for model in shipped_models() {
+        for reference in [false, true] {
+            let set = reference_mode();
+            let sets: &[&str] = if reference { &[&set] } else { &[] };
+            let reported = reported(&compiled(&scratch, &model, sets), vec![]);
+            let Reported { page, pictures, run, answer } = &reported;
+            assert!(page.len() < 3 << 20, "{model}: {} bytes", page.len());
+            assert_self_contained(page);
+            assert_well_formed(page);
+            assert_truthful(&reported);
+            for picture in pictures {
+                assert_self_contained(&picture.svg);
+                assert_well_formed(&picture.svg);
+                assert_numbers(&picture.svg);
+                assert!(
+                    picture.svg.len() < 100 << 10,
+                    "{model}: {} of {} bytes",
+                    picture.name,
+                    picture.svg.len()
+                );
+            }
+            let promise = between(page, "<h2>What is promised</h2>", "</section>");
+            assert_eq!(promise.contains("No guarantee"), reference, "{model}");
+            assert_eq!(promise.contains("confidence <strong>0.99</strong>"), !reference, "{model}");
+            assert_eq!(promise.contains("nothing is guaranteed"), reference, "{model}");
+            assert_eq!(page.contains("promised probability"), !reference, "{model}");
+            let bound = dynabs::controller::export::lower_bound_text(answer.lower);
+            assert!(promise.contains(&bound), "{model}: {bound}");
+            for allocation in &run.manifest.probabilities.budget {
+                assert!(page.contains(&format!("<th scope=\"row\">{}</th>", allocation.family)));
+            }
+            assert!(!page.contains("<h2>Cross-check</h2>"));
+            assert_eq!(data(page)["runs"].as_array().unwrap().len(), 12);
+        }
+    }
+}
+
+#[test]
+fn the_same_page_every_time() {
+    let scratch = TempDir::new().unwrap();
+    let directory = compiled(&scratch, "room_temperature", &[]);
+    let on = |threads, times| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| reported(&directory, times).page)
+    };
+    assert_eq!(on(1, vec![]), on(3, vec![]));
+    let timed = on(1, vec![("thinking", Duration::from_millis(1500))]);
+    assert!(timed.contains("<th scope=\"row\">thinking</th><td>1.500 s</td>"));
+}
+
+#[test]
+fn names_are_disarmed() {
+    let scratch = TempDir::new().unwrap();
+    let name = "/name=\"</script><script>alert(1)</script>&'\"";
+    let description = "/description=<img src=x onerror=alert(2)>";
+    let reported = reported(&compiled(&scratch, "room_temperature", &[name, description]), vec![]);
+    assert!(reported.page.contains("&lt;script&gt;alert(1)&lt;/script&gt;&amp;&#39;"));
+    for text in reported.pictures.iter().map(|picture| &picture.svg).chain([&reported.page]) {
+        assert!(!text.contains("<script>alert") && !text.contains("<img"));
+        assert_well_formed(text);
+    }
+}
+
+#[test]
+fn unbounded_tasks_and_no_initial_state() {
+    let scratch = TempDir::new().unwrap();
+    for model in ["room_temperature", "double_integrator"] {
+        let sets = ["/task/horizon=\"infinite\"", "/initial_state=null"];
+        let reported = reported(&compiled(&scratch, model, &sets), vec![]);
+        assert!(reported.page.contains("the model names no initial state"), "{model}");
+        assert_truthful(&reported);
+        for picture in &reported.pictures {
+            assert_numbers(&picture.svg);
+        }
+    }
+}
+
+#[test]
+fn the_tool_and_its_mistakes() {
+    let scratch = TempDir::new().unwrap();
+    let directory = compiled(&scratch, "room_temperature", &[]);
+    let output = scratch.path().join("page.html");
+    let check = |expected: i32| {
+        let mut command = Command::cargo_bin("dynabs-check").unwrap();
+        command
+            .arg("report")
+            .arg(&directory)
+            .arg("-o")
+            .arg(&output)
+            .arg("--svg")
+            .arg(scratch.path().join("svg"));
+        command.args(["--no-times", "--runs", "100", "--seed", "1"]);
+        let run = command.output().unwrap();
+        assert_eq!(run.status.code(), Some(expected), "{}", String::from_utf8_lossy(&run.stderr));
+        String::from_utf8(run.stderr).unwrap()
+    };
+    check(0);
+    let plain = fs::read_to_string(&output).unwrap();
+    assert_well_formed(&fs::read_to_string(scratch.path().join("svg/value.svg")).unwrap());
+
+    // What other engines said is shown, whatever they are called.
+    let findings = serde_json::json!({"findings": [{
+        "engine": "PRISM", "version": "<4>", "property": "Pmaxmin=? [ !\"failed\" U<=6 \"reached\" ]",
+        "value": [0.99, 0.99], "ours": [0.99, 0.99], "difference": 1.5e-14, "seconds": 1.25, "agreement": "agrees",
+    }]});
+    fs::write(directory.join(CROSS_CHECK), findings.to_string()).unwrap();
+    check(0);
+    let page = fs::read_to_string(&output).unwrap();
+    assert!(
+        page.contains("<h2>Cross-check</h2>") && page.contains("PRISM &lt;4&gt;") && page.contains("1.5e-14")
+    );
+    assert_well_formed(&page);
+
+    fs::write(directory.join(CROSS_CHECK), "{}").unwrap();
+    let error = check(2);
+    assert!(error.contains("crosscheck.json: found something else"), "{error}");
+    assert_eq!(fs::read_to_string(&output).unwrap(), page, "a failed report leaves the old one alone");
+
+    fs::remove_file(directory.join(CROSS_CHECK)).unwrap();
+    check(0);
+    assert_eq!(fs::read_to_string(&output).unwrap(), plain);
+}
+
+#[test]
+fn a_browser_opens_it() {
+    let scratch = TempDir::new().unwrap();
+    let mut command = std::process::Command::new(root().join("scripts/check-report.sh"));
+    for (model, sets) in [
+        ("room_temperature", vec![]),
+        ("double_integrator", vec![reference_mode()]),
+        ("spacecraft_aligned_two_layer", vec![]),
+    ] {
+        let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
+        let file = scratch.path().join(format!("{model}.html"));
+        fs::write(&file, reported(&compiled(&scratch, model, &sets), vec![]).page).unwrap();
+        command.arg(file);
+    }
+    let output = command.output().unwrap();
+    let text = String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned();
+    match output.status.code() {
+        // Not by eprintln!, which nobody sees when a test passes.
+        Some(3) => writeln!(std::io::stderr(), "SKIPPED: no report was opened in a browser: {text}").unwrap(),
+        code => assert_eq!(code, Some(0), "{text}"),
+    }
+}
