@@ -1,4 +1,4 @@
-// Drives a report like a reader would, and leaves the outcome in <html data-selftest="…">.
+// Drives a report like a reader would, and leaves the outcome in the data-selftest of its root element.
 // scripts/check-report.sh puts it at the end of a page and opens that in a browser.
 "use strict";
 (() => {

@@ -223,7 +223,7 @@ const facts = () => {
   const cell = cellOf(view.cell), target = best(cell, view.step), kind = ["ordinary", "goal", "unsafe"][kinds[cell]];
   const sides = view.cell.map((i, j) => `${data.names[j]} ∈ [${short(face(j, i))}, ${short(face(j, i + 1))})`);
   const value = (Math.floor(valueAt(cell, view.step) * 1e6) / 1e6).toFixed(6);
-  const late = data.horizon !== null && view.step > 0 ? ` at step ${view.step} of ${data.horizon}` : "";
+  const late = view.step > 0 ? ` at step ${view.step}${data.horizon === null ? "" : ` of ${data.horizon}`}` : "";
   const facts = {
     cell: sides.join(", "), kind, value: value + late,
     enabled: kinds[cell] !== 0 ? "none needed" : ranges ? String(enabled(cell).length) : "left out of this page",
