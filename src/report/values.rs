@@ -23,7 +23,7 @@ impl StepValues {
         if let QueryKind::Until { safe, goal, steps: Some(horizon) } = &answer.query.kind {
             let cells = u64::from(run.problem.grid.num_cells());
             let last = (*horizon).min(MOST_STEPS).min((MOST_VALUES / cells).saturating_sub(1));
-            let options = SolverOptions { policy: false, ..*options };
+            let options = SolverOptions { policy: false, evidence: false, ..*options };
             for step in 1..=last {
                 let query = Query::Until { safe, goal, steps: Some(horizon - step) };
                 let solution = solve(&run.abstraction.model, &query, answer.query.resolution, &options)?;
