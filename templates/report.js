@@ -198,12 +198,15 @@ const pick = (f) => {
 const section = () => {
   const j = along(), f = frameOf(64, 16, 632, 220, range(j), [0, 1.05]), bottom = f.top + f.height;
   const coordinates = [...view.cell];
-  let d = "";
+  let d = "", before = null;
   for (let i = 0; i < data.cells[j]; i++) {
     coordinates[j] = i;
-    const y = at2(f.py(valueAt(cellOf(coordinates), view.step))), end = at2(f.px(face(j, i + 1)));
-    d += i ? `V${y}H${end}` : `M${f.left} ${y}H${end}`;
+    const y = at2(f.py(valueAt(cellOf(coordinates), view.step)));
+    if (before === null) d += `M${f.left} ${y}`;
+    else if (y !== before) d += `H${at2(f.px(face(j, i)))}V${y}`;
+    before = y;
   }
+  d += `H${at2(f.px(data.upper[j]))}`;
   const band = (list) => list.map((region) => {
     if (region.some((_, l) => l !== j && !meets(region, l))) return "";
     const [x0, x1] = clipped(region[j], f.x);

@@ -251,6 +251,27 @@ fn unbounded_tasks_and_no_initial_state() {
 }
 
 #[test]
+fn large_models_leave_things_out_and_say_so() {
+    let scratch = TempDir::new().unwrap();
+    let few_targets = "/targets={\"lower\":[0],\"upper\":[12],\"cells\":[48]}";
+    for (cells, left_out) in [
+        (150_000, "Left out of this page for its size: values after step 3 of 6"),
+        (300_001, "300001 cells are too many to embed: the plots cannot be changed"),
+    ] {
+        let set = format!("/partition/cells=[{cells}]");
+        // Less noise makes rows shorter and the test faster.
+        let quiet = "/noise/gaussian/covariance=[[0.000001]]";
+        let reported = reported(&compiled(&scratch, "room_temperature", &[&set, few_targets, quiet]), vec![]);
+        assert!(reported.page.contains(left_out), "{cells}");
+        assert!(reported.page.len() < 8 << 20, "{cells}: {} bytes", reported.page.len());
+        assert_eq!(data(&reported.page).is_null(), cells > 300_000);
+        for picture in &reported.pictures {
+            assert_numbers(&picture.svg);
+        }
+    }
+}
+
+#[test]
 fn the_tool_and_its_mistakes() {
     let scratch = TempDir::new().unwrap();
     let directory = compiled(&scratch, "room_temperature", &[]);

@@ -71,16 +71,20 @@ fn curve(material: &Material<'_>, view: &View, along: usize, frame: &Frame) -> S
     let values = material.values.at(view.step);
     let mut coordinates = view.slice.clone();
     let faces = &material.faces()[along];
-    let mut d = String::new();
-    for i in 0..faces.len() - 1 {
+    let cells = faces.len() - 1;
+    let (mut d, mut before) = (String::new(), String::new());
+    for (i, &face) in faces[..cells].iter().enumerate() {
         coordinates[along] = i as u32;
         let value = values[material.problem().grid.cell(&coordinates).index()];
-        let (y, end) = (coordinate(frame.y.at(f64::from(value))), coordinate(frame.x.at(faces[i + 1])));
+        let y = coordinate(frame.y.at(f64::from(value)));
         match i {
-            0 => d += &format!("M{} {y}H{end}", frame.left),
-            _ => d += &format!("V{y}H{end}"),
+            0 => d += &format!("M{} {y}", frame.left),
+            _ if y != before => d += &format!("H{}V{y}", coordinate(frame.x.at(face))),
+            _ => {}
         }
+        before = y;
     }
+    d += &format!("H{}", coordinate(frame.x.at(faces[cells])));
     let threshold = material.problem().threshold.as_ref().map_or(String::new(), |threshold| {
         let y = coordinate(frame.y.at(threshold.to_f64()));
         format!("<path class=\"threshold\" d=\"M{} {y}h{}\"/>", frame.left, frame.width)

@@ -49,7 +49,7 @@ fn conditions(run: &Run) -> String {
     format!(
         "<ul>\n<li>One event of probability at least 1 − β, with β{beta}, over the {} samples covers all cells, horizons \
          and policies at once: the policy was chosen on the same samples, and that is fine.</li>\n<li>Covered are {}. \
-         Nothing else is, upper bounds for reaching the goal in particular.\
+         Nothing else is covered; in particular, there are no upper bounds for reaching the goal.\
          </li>\n<li>It needs samples that are independent of each other and of the noise at run time, which has the same \
          distribution, given the past; {fixed}.</li>\n</ul>\n",
         manifest.samples,
