@@ -107,17 +107,17 @@ pub(super) fn budget(run: &Run) -> String {
     };
     let line = |a: &crate::statistics::Allocation| {
         let events = if a.events < 1e15 { count(a.events as u64) } else { short(a.events) };
-        row(&[&escape(&a.family), &events, &short(a.beta), &a.tails.to_string(), &short(a.level)])
+        row(&[&escape(&a.family), &events, &short(a.beta)])
     };
     let rows: Vec<_> = probabilities.budget.iter().map(line).collect();
     let unseen = probabilities.unseen_mass.map_or(String::new(), |mass| {
         format!(
-            "<p>At most {} of the noise's probability lies outside the samples' bounding box.</p>\n",
+            "<p>At most {} of the noise's probability lies outside the window of cells that a row lists.</p>\n",
             short(mass)
         )
     });
     let caption = format!("How β = {} was spent; by the union bound all events hold together", short(beta));
-    table(&caption, &["family of events", "events", "β", "tails each", "level per tail"], &rows) + &unseen
+    table(&caption, &["family of events", "events", "β"], &rows) + &unseen
 }
 
 /// What other engines said; empty if nobody was asked.
