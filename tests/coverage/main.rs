@@ -55,8 +55,8 @@ fn claims_hold_together_as_often_as_promised() {
 
 #[test]
 fn unseen_mass_is_needed() {
-    // Uniform noise has no mass outside its windows to speak of; the others do.
-    for noise in [Noise::Gaussian, Noise::HeavyTailed, Noise::Bimodal, Noise::Correlated] {
+    // Heavy tails need windows as large as the grid, beyond which everything is lost, not unseen.
+    for noise in [Noise::Gaussian, Noise::Bimodal, Noise::Correlated] {
         let failures = failures(Layout::Centers, noise);
         let rate = failures.without_unseen as f64 / REPLICATIONS as f64;
         assert!(rate > BETA, "{noise:?}: {failures:?}");
