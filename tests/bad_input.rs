@@ -73,6 +73,8 @@ const MISTAKES: &[Mistake] = &[
         &["/noise/gaussian/covariance", "symmetric", "(0,1) = 2", "(1,0) = 1"],
     ),
     mistake(ROOM, "/noise/count=5", &["/noise", "8 samples", "at least"]),
+    mistake(ROOM, "/probabilities/discard=1500", &["/noise", "2000 samples", "at least"]),
+    mistake(ROOM, "/probabilities/discard=-1", &["/probabilities/discard", "-1"]),
     mistake(ROOM, "/noise/samples={\"file\":\"x.csv\",\"of\":\"step\"}", &["/noise", "either {samples}"]),
     mistake(ONE_LAYER, "/noise/samples/file=\"noise/none.csv\"", &["/noise/samples/file", "none.csv"]),
     // Partition and task.

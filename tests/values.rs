@@ -182,3 +182,12 @@ fn pac_values_are_better_with_other_samples_too() {
         assert_beaten(&pac_table(Some(&noise)), &others, &format!("{count} samples, seed {seed}"));
     }
 }
+
+#[test]
+fn discarded_samples_make_rows_shorter_and_leave_more_unseen() {
+    let all = abstraction("double_integrator", &[]);
+    let fewer = abstraction("double_integrator", &["/probabilities/discard=8".into()]);
+    assert!(fewer.model.rows().num_entries() < all.model.rows().num_entries());
+    let unseen = |abstraction: &Abstraction| abstraction.guarantee.as_ref().unwrap().unseen_mass;
+    assert!(unseen(&fewer) > unseen(&all));
+}

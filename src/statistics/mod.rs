@@ -1,4 +1,4 @@
-//! What samples prove: binomial confidence bounds, the mass they have not seen, the confidence budget.
+//! What samples prove: binomial confidence bounds, and the confidence budget that pays for them.
 //!
 //! Everything is distribution-free and finite-sample: the only assumption is that samples are independent
 //! and identically distributed.

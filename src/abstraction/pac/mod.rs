@@ -127,7 +127,8 @@ impl<'a> PacRows<'a> {
         let goal_events = regions.iter().map(|r| r.goal).zip(goal_distances.iter().copied());
         let goal = BoundTable::new(goal_events, number, |distance| levels.goal(distance));
         let lost_events = regions.iter().map(|r| (r.lost, ()));
-        let lost = BoundTable::new(lost_events, number, |()| (levels.lost, levels.lost));
+        // Only the upper bound is claimed and paid for: at level 0 the lower one is 0.
+        let lost = BoundTable::new(lost_events, number, |()| (0.0, levels.lost));
         let shared = landings.shared().map(|landing| intervals(landing, &vec![0; grid.dimension()], &cells));
         Ok(Self {
             problem,

@@ -1,0 +1,38 @@
+//! The benchmarks of the paper's predecessors.
+#![allow(missing_docs, clippy::unwrap_used)]
+
+mod common;
+
+use assert_cmd::Command;
+use common::root;
+use dynabs::spec::{Document, Problem};
+use std::fs;
+use tempfile::TempDir;
+
+#[test]
+fn all_of_them_are_valid() {
+    let mut cells = vec![];
+    for entry in fs::read_dir(root().join("models/predecessors")).unwrap() {
+        let path = entry.unwrap().path();
+        let document = Document::parse(&path, &fs::read_to_string(&path).unwrap()).unwrap();
+        let problem = Problem::from_document(&document).unwrap();
+        assert_eq!(Some(problem.name.as_str()), path.file_stem().unwrap().to_str());
+        cells.push(problem.grid.num_cells());
+    }
+    cells.sort_unstable();
+    assert_eq!(cells, [380, 784, 12_325, 25_515, 35_721, 158_125]);
+}
+
+#[test]
+fn small_ones_keep_their_promises() {
+    for model in ["uav_2d", "building_1_zone"] {
+        let directory = TempDir::new().unwrap();
+        let out = directory.path().join("out");
+        let file = root().join(format!("models/predecessors/{model}.json"));
+        let mut compile = Command::cargo_bin("dynabs-compile").unwrap();
+        compile.arg(file).args(["--no-tra", "--quiet", "-o"]).arg(&out).assert().success();
+        // Exit code 1 would be a contradiction, 4 an input outside U.
+        let mut simulate = Command::cargo_bin("dynabs-check").unwrap();
+        simulate.arg("simulate").arg(&out).args(["--runs", "4000", "--seed", "1"]).assert().success();
+    }
+}
