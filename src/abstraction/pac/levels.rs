@@ -3,6 +3,7 @@
 //! They were chosen on synthetic samples of the double integrator with seeds that no shipped model uses.
 //! Weights are integers, so that they add up exactly.
 
+use super::super::targets::Targets;
 use crate::numeric::{Rational, to_f64};
 use crate::partition::{Grid, Region};
 use crate::statistics::{BudgetError, ConfidenceBudget, Grant};
@@ -112,20 +113,29 @@ fn total_offset_weight(ranges: &[(i64, i64)]) -> BigInt {
     numbers.into_iter().map(|(square, number)| weight(square) * number).sum()
 }
 
-/// How far a point is from the nearest of these boxes, in whole cells; 0 if there are none.
+/// How far each target is from the nearest of these boxes, in whole cells; 0 if there are none.
 ///
 /// A measure for weights only: roundings do not matter.
-pub(super) fn distance_in_cells(point: &[f64], regions: &[Region], grid: &Grid) -> u32 {
-    let distance = |region: &Region| {
-        let along = |j: usize| {
-            let below = region.lower[j].as_ref().map_or(0.0, |lower| to_f64(lower) - point[j]);
-            let above = region.upper[j].as_ref().map_or(0.0, |upper| point[j] - to_f64(upper));
-            below.max(above).max(0.0) / to_f64(grid.axes()[j].width())
-        };
-        (0..point.len()).map(along).fold(0.0, f64::max)
+pub(super) fn distances_in_cells(targets: &Targets, regions: &[Region], grid: &Grid) -> Vec<u32> {
+    let n = grid.dimension();
+    let widths: Vec<f64> = grid.axes().iter().map(|axis| to_f64(axis.width())).collect();
+    let side = |side: &Option<Rational>, open: f64| side.as_ref().map_or(open, to_f64);
+    let sides = |region: &Region, j: usize| {
+        (side(&region.lower[j], f64::NEG_INFINITY), side(&region.upper[j], f64::INFINITY))
     };
-    let nearest = regions.iter().map(distance).fold(f64::INFINITY, f64::min);
-    if nearest.is_finite() { nearest as u32 } else { 0 }
+    let boxes: Vec<Vec<(f64, f64)>> =
+        regions.iter().map(|region| (0..n).map(|j| sides(region, j)).collect()).collect();
+    let mut point = vec![0.0; n];
+    let distance = |target| {
+        targets.point(target, &mut point);
+        let from_box = |sides: &Vec<(f64, f64)>| {
+            let along = |j: usize| (sides[j].0 - point[j]).max(point[j] - sides[j].1).max(0.0) / widths[j];
+            (0..n).map(along).fold(0.0, f64::max)
+        };
+        let nearest = boxes.iter().map(from_box).fold(f64::INFINITY, f64::min);
+        if nearest.is_finite() { nearest as u32 } else { 0 }
+    };
+    (0..targets.len()).map(distance).collect()
 }
 
 #[cfg(test)]

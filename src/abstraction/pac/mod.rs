@@ -37,9 +37,10 @@
 //! in floating point count for the upper bounds of every cell they may be in, for the lower bounds of none.
 
 mod bounds;
+mod ground;
 mod levels;
 
-use super::landing::{Landing, RegionCounts, Spread};
+use super::landing::{RegionCounts, Spread};
 use super::landings::{Landings, Placements, for_each_cell, is_inside};
 use super::outcomes::{Outcome, Outcomes};
 use super::states::{FAILED, REACHED, StateSpace};
@@ -53,9 +54,9 @@ use crate::solver::worst_expectations;
 use crate::spec::Problem;
 use crate::statistics::{ConfidenceBudget, upper_bound};
 use bounds::{BoundTable, DIGITS, Interval};
-use levels::{Levels, distance_in_cells};
+use ground::{Ground, cell_events, intervals};
+use levels::{Levels, distances_in_cells};
 use rayon::prelude::*;
-use std::borrow::Cow;
 
 /// The most that may be unseen: beyond it no policy could be shown to succeed more often than not.
 const MAX_UNSEEN: f64 = 0.5;
@@ -95,8 +96,7 @@ impl<'a> PacRows<'a> {
     ) -> Result<Self, AbstractionError> {
         let (grid, samples) = (&problem.grid, &problem.noise.samples);
         let number = samples.len() as u64;
-        let goal_distances: Vec<u32> =
-            (0..targets.len()).map(|a| goal_distance(problem, targets, a)).collect();
+        let goal_distances = distances_in_cells(targets, &problem.goal, grid);
         let origins = if placements.shared().is_some() { 1 } else { targets.len() };
         let mut budget = ConfidenceBudget::new(beta.clone());
         let levels = Levels::new(&mut budget, &placements.offset_ranges(grid), origins, &goal_distances)?;
@@ -150,10 +150,10 @@ impl<'a> PacRows<'a> {
     /// One row per target, each with the window with which the least mass may fail.
     pub(super) fn rows(&self, progress: &dyn Progress) -> Rows {
         self.collect("rows", progress, |target, rows| {
-            let landing = Ground::new(self, target);
-            let failed: Vec<f64> = (0..self.unseen.len()).map(|w| self.failed(&landing, target, w)).collect();
+            let ground = Ground::new(self, target);
+            let failed: Vec<f64> = (0..self.unseen.len()).map(|w| self.failed(&ground, target, w)).collect();
             let best = (1..failed.len()).fold(0, |best, w| if failed[w] < failed[best] { w } else { best });
-            self.push_row(&landing, target, best, rows);
+            self.push_row(&ground, target, best, rows);
         })
     }
 
@@ -163,12 +163,12 @@ impl<'a> PacRows<'a> {
     /// costs more depends on what these cells are worth. Whatever is chosen, the bounds hold.
     pub(super) fn better_rows(&self, values: &[f64], progress: &dyn Progress) -> Rows {
         self.collect("choice of windows", progress, |target, rows| {
-            let landing = Ground::new(self, target);
+            let ground = Ground::new(self, target);
             let mut candidates = Rows::new();
-            (0..self.unseen.len()).for_each(|w| self.push_row(&landing, target, w, &mut candidates));
+            (0..self.unseen.len()).for_each(|w| self.push_row(&ground, target, w, &mut candidates));
             let worth = worst_expectations(&candidates, values);
             let best = (1..worth.len()).fold(0, |best, w| if worth[w] > worth[best] { w } else { best });
-            self.push_row(&landing, target, best, rows);
+            self.push_row(&ground, target, best, rows);
         })
     }
 
@@ -239,81 +239,6 @@ impl<'a> PacRows<'a> {
         }
         clean
     }
-}
-
-/// Where the noise of one action lands.
-struct Ground<'a> {
-    landing: Cow<'a, Landing>,
-    windows: Cow<'a, [Spread]>,
-    /// The cell that coordinates count from.
-    origin: Vec<i32>,
-    /// The intervals of the landing's table.
-    intervals: Cow<'a, [Interval]>,
-}
-
-impl<'a> Ground<'a> {
-    fn new(rows: &'a PacRows<'_>, target: usize) -> Self {
-        let grid = &rows.problem.grid;
-        let mut origin = vec![0; grid.dimension()];
-        let (landing, windows) = rows.landings.of(rows.targets, target, grid, &mut origin);
-        let intervals = match &rows.shared {
-            Some(intervals) => Cow::Borrowed(&intervals[..]),
-            None => {
-                let from = rows.landings.target_cell(rows.targets, target, grid);
-                Cow::Owned(intervals(&landing, &from, &rows.cells))
-            }
-        };
-        Self { landing, windows, origin, intervals }
-    }
-}
-
-fn goal_distance(problem: &Problem, targets: &Targets, target: usize) -> u32 {
-    let mut point = vec![0.0; problem.grid.dimension()];
-    targets.point(target, &mut point);
-    distance_in_cells(&point, &problem.goal, &problem.grid)
-}
-
-/// The events of cells that occur: counts, and squared distances from the target's cell.
-fn cell_events(
-    landings: &Landings<'_>,
-    targets: &Targets,
-    problem: &Problem,
-) -> impl Iterator<Item = (super::Count, u64)> {
-    let grid = &problem.grid;
-    let events = |landing: &Landing, from: &[i32]| {
-        let squares = squared_distances(landing.table(), from);
-        landing.counts().iter().copied().zip(squares).collect::<Vec<_>>()
-    };
-    let all = match landings.shared() {
-        Some(landing) => events(landing, &vec![0; grid.dimension()]),
-        None => (0..targets.len())
-            .into_par_iter()
-            .flat_map_iter(|target| {
-                let (landing, _) = landings.of(targets, target, grid, &mut vec![0; grid.dimension()]);
-                let mut events = events(&landing, &landings.target_cell(targets, target, grid));
-                events.sort_unstable();
-                events.dedup();
-                events
-            })
-            .collect(),
-    };
-    all.into_iter()
-}
-
-/// The intervals of all cells of a landing's table.
-fn intervals(landing: &Landing, from: &[i32], cells: &BoundTable<u64>) -> Vec<Interval> {
-    let squares = squared_distances(landing.table(), from);
-    landing.counts().iter().zip(squares).map(|(&count, square)| cells.get(count, square)).collect()
-}
-
-/// The squared distances, in cells, of all cells of a table from one of them.
-fn squared_distances(table: &Spread, from: &[i32]) -> Vec<u64> {
-    let mut squares = Vec::with_capacity(table.volume());
-    table.for_each(|cell| {
-        let along = |(&a, &b): (&i32, &i32)| (i64::from(a) - i64::from(b)).pow(2) as u64;
-        squares.push(cell.iter().zip(from).map(along).sum());
-    });
-    squares
 }
 
 /// The smallest number of samples with which less than half of the mass may be unseen.
