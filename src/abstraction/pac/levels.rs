@@ -1,6 +1,7 @@
 //! How the confidence budget is split: constants chosen in advance, never by the samples at hand.
 //!
-//! They were chosen on synthetic samples of the double integrator with seeds that no shipped model uses.
+//! They were chosen on synthetic samples of the double integrator with seeds that no shipped model uses, but for the
+//! share of the windows, which went from 50 to 52 after a look at the shipped ones.
 //! Weights are integers, so that they add up exactly.
 
 use super::super::targets::Targets;
