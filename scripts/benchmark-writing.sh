@@ -4,7 +4,7 @@
 # Usage: scripts/benchmark-writing.sh [DIRECTORY] [ROUNDS]
 set -euo pipefail
 cd "$(dirname "$0")/.."
-directory=$(mktemp -d "${1:-.}/benchmark-XXXXXX")
+directory=$(mktemp -d -p "${1:-.}")
 rounds=${2:-3}
 trap 'rm -rf "$directory"' EXIT
 cargo build --release --locked --quiet

@@ -7,7 +7,7 @@ mod common;
 
 use common::{abstraction, reference_mode, root, shipped_models};
 use dynabs::crosscheck::{Comparison, DiffOptions, Record, Tolerance, diff, open};
-use dynabs::imdp::{IntervalMdp, Parts, Rows};
+use dynabs::imdp::Rows;
 use std::fs;
 
 const MODES: [&str; 2] = ["pac", "reference"];
@@ -73,16 +73,7 @@ fn with_wider_interval(record: &Record, state: u32, choice: usize, by: f64) -> (
         }
         rows.finish_row();
     }
-    let parts = Parts {
-        kind: model.kind(),
-        rows,
-        choices: model.choices().clone(),
-        actions: model.actions().clone(),
-        initial: model.initial().clone(),
-        labels: model.labels().clone(),
-        variables: model.variables().clone(),
-    };
-    let changed = Record::of_model("changed", IntervalMdp::new(parts).unwrap(), record.properties.clone());
+    let changed = Record::of_model("changed", model.with_rows(rows).unwrap(), record.properties.clone());
     (changed, successor.unwrap())
 }
 

@@ -203,6 +203,23 @@ impl IntervalMdp {
         Ok(Self { parts, size })
     }
 
+    /// The same model with other rows.
+    ///
+    /// # Errors
+    /// Those of [`IntervalMdp::new`].
+    pub fn with_rows(&self, rows: Rows) -> Result<Self, ImdpError> {
+        let Parts { kind, rows: _, choices, actions, initial, labels, variables } = &self.parts;
+        Self::new(Parts {
+            kind: *kind,
+            rows,
+            choices: choices.clone(),
+            actions: actions.clone(),
+            initial: initial.clone(),
+            labels: labels.clone(),
+            variables: variables.clone(),
+        })
+    }
+
     /// Whether there is a policy at all.
     pub fn kind(&self) -> ModelKind {
         self.parts.kind

@@ -1,7 +1,7 @@
 //! Models that engines accept: without lower bounds of 0.
 
 use crate::formats::prism::RAISED_LOWER_BOUND;
-use crate::imdp::{ImdpError, IntervalMdp, Parts, Rows};
+use crate::imdp::{ImdpError, IntervalMdp, Rows};
 
 /// The model with every lower bound of 0 raised to [`RAISED_LOWER_BOUND`], as `model.tra` has it; `None` if there
 /// are no such bounds.
@@ -20,14 +20,5 @@ pub fn raised(model: &IntervalMdp) -> Result<Option<IntervalMdp>, ImdpError> {
         }
         rows.finish_row();
     }
-    let parts = Parts {
-        kind: model.kind(),
-        rows,
-        choices: model.choices().clone(),
-        actions: model.actions().clone(),
-        initial: model.initial().clone(),
-        labels: model.labels().clone(),
-        variables: model.variables().clone(),
-    };
-    IntervalMdp::new(parts).map(Some)
+    model.with_rows(rows).map(Some)
 }

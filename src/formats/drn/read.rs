@@ -7,7 +7,7 @@ use crate::formats::import::{
     Assembly, AssemblyError, Cursor, Expected, Fault, ImportError, Imported, Judgement, Lines, PendingRow,
     Position, RowFault, Warning, describe, hash_row, read_interval, written_bounds,
 };
-use crate::imdp::{ActionNames, IntervalMdp, Parts, Rows, StateId};
+use crate::imdp::{ActionNames, Rows, StateId};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -268,19 +268,10 @@ impl Body<'_> {
         let variables = variables.map_err(|missing| {
             lines.refuse(1, "values of the variables for every state", format!("none for state {missing}"))
         })?;
-        let model = IntervalMdp::new(Parts {
-            kind: self.header.kind,
-            rows: transitions.rows,
-            choices: transitions.choices,
-            actions: transitions.actions,
-            initial,
-            labels,
-            variables,
-        })?;
-        let mut warnings = transitions.warnings;
+        let mut imported = transitions.into_model(self.header.kind, initial, labels, variables)?;
         let widened = |(count, line)| Warning::Widened { count, first: Position::text(self.path, line, 1) };
-        warnings.splice(0..0, self.widened.map(widened));
-        Ok(Imported { model, warnings })
+        imported.warnings.splice(0..0, self.widened.map(widened));
+        Ok(imported)
     }
 }
 

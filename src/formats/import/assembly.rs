@@ -2,10 +2,12 @@
 
 use std::collections::HashMap;
 
-use super::error::Warning;
+use super::Imported;
+use super::error::{ImportError, Warning};
 use super::row_table::{RowTable, hash_row};
 use crate::imdp::{
-    ActionNames, Choices, ChoicesBuilder, MemoryError, Row, RowId, RowRange, Rows, StateId, require_memory,
+    ActionNames, Choices, ChoicesBuilder, IntervalMdp, Labels, MemoryError, ModelKind, Parts, Row, RowId,
+    RowRange, Rows, StateId, StateSet, StateVariables, require_memory,
 };
 
 /// What an entry of [`Rows`] takes: a successor and two bounds.
@@ -22,6 +24,21 @@ pub(in crate::formats) struct Transitions {
     pub actions: ActionNames,
     /// About states without choices.
     pub warnings: Vec<Warning>,
+}
+
+impl Transitions {
+    /// The model that these transitions and what the file says about its states are.
+    pub fn into_model(
+        self,
+        kind: ModelKind,
+        initial: StateSet,
+        labels: Labels,
+        variables: StateVariables,
+    ) -> Result<Imported, ImportError> {
+        let Self { rows, choices, actions, warnings } = self;
+        let model = IntervalMdp::new(Parts { kind, rows, choices, actions, initial, labels, variables })?;
+        Ok(Imported { model, warnings })
+    }
 }
 
 /// How large a model is going to be, as far as a file has said so far.

@@ -6,7 +6,7 @@ use super::labels::read_lab;
 use super::states::read_sta;
 use super::transitions::read_tra;
 use crate::formats::import::{ImportError, Imported};
-use crate::imdp::{IntervalMdp, Parts, StateVariables};
+use crate::imdp::StateVariables;
 
 /// Reads an interval MDP or interval DTMC from PRISM's explicit files.
 ///
@@ -50,14 +50,5 @@ pub fn import_with_progress(
         None => StateVariables::default(),
     };
     let (initial, labels) = read_lab(&lab, states)?;
-    let model = IntervalMdp::new(Parts {
-        kind,
-        rows: transitions.rows,
-        choices: transitions.choices,
-        actions: transitions.actions,
-        initial,
-        labels,
-        variables,
-    })?;
-    Ok(Imported { model, warnings: transitions.warnings })
+    transitions.into_model(kind, initial, labels, variables)
 }

@@ -7,7 +7,7 @@ use super::sets::read_set;
 use super::transitions::read_transitions;
 use super::valuations::read_variables;
 use crate::formats::import::{ImportError, Imported, Position, Warning};
-use crate::imdp::{IntervalMdp, Labels, Parts, StateVariables};
+use crate::imdp::{Labels, StateVariables};
 use std::path::Path;
 
 /// Reads an interval MDP or interval DTMC from a UMB archive, compressed with gzip or not.
@@ -64,23 +64,14 @@ pub fn import_with_progress(path: &Path, progress: &mut dyn FnMut(u64)) -> Resul
         Some(class) => read_variables(&archive, class, states)?,
         None => StateVariables::default(),
     };
-    let model = IntervalMdp::new(Parts {
-        kind: index.kind,
-        rows: transitions.rows,
-        choices: transitions.choices,
-        actions: transitions.actions,
-        initial,
-        labels,
-        variables,
-    })?;
-    let mut warnings = transitions.warnings;
-    warnings.extend(index.warnings);
+    let mut imported = transitions.into_model(index.kind, initial, labels, variables)?;
+    imported.warnings.extend(index.warnings);
     let foreign: Vec<_> = archive.names().filter(|name| !is_standard(name)).collect();
     if let Some(name) = foreign.iter().min() {
         let what = format!("{} member(s) with names that UMB does not have, such as {name},", foreign.len());
-        warnings.push(Warning::Ignored { path: path.to_owned(), what });
+        imported.warnings.push(Warning::Ignored { path: path.to_owned(), what });
     }
-    Ok(Imported { model, warnings })
+    Ok(imported)
 }
 
 /// Whether a member has a name that the format defines.
