@@ -1,10 +1,6 @@
 //! Every mistake gives one clear error: which file, which field, what was found, what to do.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod common;
-
+use crate::common::root;
 use assert_cmd::Command;
-use common::root;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;

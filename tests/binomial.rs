@@ -1,10 +1,6 @@
 //! Clopper–Pearson bounds against 20 digits from mpmath.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod common;
-
-use dynabs::numeric::{Rational, from_dyadic, to_f64};
 use dynabs::statistics::{lower_bound, upper_bound};
+use imdp::numeric::{Rational, from_dyadic, to_f64};
 use num_bigint::BigInt;
 use num_traits::{One, Pow, Zero};
 
@@ -27,7 +23,7 @@ fn excess(bound: f64, exact: &Rational) -> f64 {
 
 #[test]
 fn bounds_enclose_the_exact_ones_tightly() {
-    let text = std::fs::read_to_string(common::root().join("tests/data/binomial.csv")).unwrap();
+    let text = std::fs::read_to_string(crate::common::root().join("tests/data/binomial.csv")).unwrap();
     let mut excesses = Vec::new();
     for line in text.lines().skip(1) {
         let fields: Vec<&str> = line.split(',').collect();

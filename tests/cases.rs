@@ -1,22 +1,15 @@
 //! Models and exact values as data (`tests/cases/*.json`), through everything that reads and solves.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-#[path = "common/cases.rs"]
-mod case;
-#[path = "common/certified.rs"]
-mod certified;
-
-use case::{Case, Expected, Kind, for_every_case};
-use certified::certified;
-use dynabs::formats::native;
-use dynabs::formats::prism::{self, TraWriter};
-use dynabs::formats::row_states::RowStates;
-use dynabs::formats::umb::Compression;
-use dynabs::formats::{Format, ModelWriter};
-use dynabs::imdp::IntervalMdp;
-use dynabs::numeric::{Rational, from_dyadic};
-use dynabs::property::{Property, Verdict};
-use dynabs::solver::{SolverOptions, Status};
+use crate::common::cases::{Case, Expected, Kind, for_every_case};
+use crate::common::certified::certified;
+use imdp::formats::native;
+use imdp::formats::prism::{self, TraWriter};
+use imdp::formats::row_states::RowStates;
+use imdp::formats::umb::Compression;
+use imdp::formats::{Format, ModelWriter};
+use imdp::model::IntervalMdp;
+use imdp::numeric::{Rational, from_dyadic};
+use imdp::property::{Property, Verdict};
+use imdp::solver::{SolverOptions, Status};
 use num_traits::Zero;
 
 const EPSILON: f64 = 1e-6;

@@ -1,14 +1,10 @@
 //! The controller: the policy's, in U, at its targets, and the same in every form it is written in.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod common;
-
-use common::controllers::Loop;
-use common::{problem, shipped_models};
+use crate::common::controllers::Loop;
+use crate::common::{problem, shipped_models};
 use dynabs::controller::export::{c_source, write_csv, write_json};
 use dynabs::controller::{Controller, Decision, InputCheck, Noise, Simulation};
+use dynabs::model_file::{GaussianSpec, NoiseSource, NoiseSpec};
 use dynabs::partition::{CellId, CellKind};
-use dynabs::spec::{GaussianSpec, NoiseSource, NoiseSpec};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 use serde_json::Value;

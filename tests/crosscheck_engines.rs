@@ -2,10 +2,7 @@
 //!
 //! The engine is a shell script in PRISM's place that replays a recorded run of PRISM 4.10, or misbehaves. With
 //! `$PRISM` set the real one is asked too. What Storm says is tested by `crosscheck_storm`.
-#![allow(missing_docs, clippy::unwrap_used)]
 #![cfg(unix)]
-
-mod common;
 
 use assert_cmd::Command;
 use serde_json::Value;

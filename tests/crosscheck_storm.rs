@@ -1,18 +1,14 @@
 //! Storm and the shipped models: all states, both modes, all four operators, with and without a bound.
 //!
 //! Runs where `$DYNABS_PYTHON` is a Python with stormpy, as in `.ci/run`; with `$PRISM` set, PRISM is asked too.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod common;
-
-use common::{abstraction, reference_mode};
+use crate::common::{abstraction, reference_mode};
 use dynabs::abstraction::Abstraction;
-use dynabs::crosscheck::engines::{
+use imdp::engines::{
     Agreement, CrossCheckOptions, Engine, Finding, Prism, RunLimits, Storm, Subject, cross_check, raised,
 };
-use dynabs::imdp::IntervalMdp;
-use dynabs::property::{PathFormula, Property, Resolution};
-use dynabs::solver::SolverOptions;
+use imdp::model::IntervalMdp;
+use imdp::property::{PathFormula, Property, Resolution};
+use imdp::solver::SolverOptions;
 use std::time::Duration;
 
 /// Inputs that keep the transitions of large models to some hundred thousand.
@@ -72,7 +68,7 @@ fn shipped_models() {
     if engines().is_empty() {
         return;
     }
-    for model in common::shipped_models() {
+    for model in crate::common::shipped_models() {
         for mode in [vec![], vec![reference_mode()]] {
             let abstraction = abstraction(&model, &[small(&model), mode.clone()].concat());
             let properties = questions(&abstraction);

@@ -1,6 +1,4 @@
 //! `dynabs-check diff`: every kind of difference is found, located and ranked.
-#![allow(missing_docs, clippy::unwrap_used)]
-
 use assert_cmd::Command;
 use serde_json::Value;
 use std::fs;

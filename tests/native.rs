@@ -1,8 +1,6 @@
 //! The native format: what is written is read back, and no damage goes unnoticed.
-#![allow(clippy::unwrap_used)]
-
-use dynabs::formats::native::{NativeError, read, read_from, write, write_file};
-use dynabs::imdp::{
+use imdp::formats::native::{NativeError, read, read_from, write, write_file};
+use imdp::model::{
     ActionNames, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowRange, Rows, StateSet,
     StateVariables, VariableValues,
 };

@@ -1,13 +1,9 @@
 //! A run directory opened again: it says what was compiled, or why it cannot be believed.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod common;
-
-use common::{document, shipped_models};
+use crate::common::{document, shipped_models};
 use dynabs::abstraction::compile;
-use dynabs::run_directory::{Manifest, OpenError, Run, WriteOptions, write_run};
-use dynabs::solver::SolverOptions;
-use dynabs::spec::Problem;
+use dynabs::model_file::Problem;
+use dynabs::run::{Manifest, OpenError, Run, WriteOptions, write_run};
+use imdp::solver::SolverOptions;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -28,7 +24,7 @@ fn a_run_is_what_was_compiled() {
         let directory = scratch.path().join("run");
         write(&directory, &model, &[]);
         let run = Run::open(&directory, &()).unwrap();
-        let compiled = common::abstraction(&model, &[]);
+        let compiled = crate::common::abstraction(&model, &[]);
         assert_eq!(run.abstraction.model, compiled.model, "{model}");
         assert_eq!(run.abstraction.state_of_cell, compiled.state_of_cell);
         assert_eq!(run.abstraction.property.to_string(), compiled.property.to_string());

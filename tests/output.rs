@@ -1,11 +1,7 @@
 //! What a compilation writes: complete, reproducible, all or nothing.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod common;
-
+use crate::common::{data, reference_mode, root, table_one_row};
 use assert_cmd::Command;
-use common::{data, reference_mode, root, table_one_row};
-use dynabs::run_directory::sha256_hex;
+use imdp::formats::sha256_hex;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,14 +1,10 @@
 //! The published numbers of the method: Table I and the spacecraft of ECC 2024.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod common;
-
-use common::{abstraction, data, problem, reference_mode, table_one_row};
+use crate::common::{abstraction, data, problem, reference_mode, table_one_row};
 use dynabs::abstraction::{Targets, enabled_actions};
-use dynabs::dynamics::{Extent, FeedbackLaw};
+use dynabs::model_file::Problem;
 use dynabs::partition::{CellId, CellKind};
-use dynabs::spec::Problem;
 use dynabs::statistics::ReferenceIntervals;
+use dynabs::system::{Extent, FeedbackLaw};
 
 #[test]
 fn table_one_has_the_published_sizes() {

@@ -1,11 +1,7 @@
 //! The benchmarks of the paper's predecessors.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod common;
-
+use crate::common::root;
 use assert_cmd::Command;
-use common::root;
-use dynabs::spec::{Document, Problem};
+use dynabs::model_file::{Document, Problem};
 use std::fs;
 use tempfile::TempDir;
 

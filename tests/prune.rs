@@ -1,14 +1,10 @@
 //! `dynabs-compile --prune`: the same value from a fraction of the model.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod common;
-
+use crate::common::{abstraction, reference_mode, shipped_models};
 use assert_cmd::Command;
-use common::{abstraction, reference_mode, shipped_models};
-use dynabs::imdp::{ActionNames, IntervalMdp, StateId};
-use dynabs::property::{PathFormula, Property, Resolution};
-use dynabs::run_directory::Manifest;
-use dynabs::solver::{Answer, PruneError, Pruned, SolverOptions};
+use dynabs::run::Manifest;
+use imdp::model::{ActionNames, IntervalMdp, StateId};
+use imdp::property::{PathFormula, Property, Resolution};
+use imdp::solver::{Answer, PruneError, Pruned, SolverOptions};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -93,7 +89,7 @@ fn an_interrupted_computation_prunes_nothing() {
 fn compile(directory: &Path, further: &[&str]) -> (String, String) {
     let mut command = Command::cargo_bin("dynabs-compile").unwrap();
     let output = command
-        .arg(common::root().join("models/spacecraft_aligned.json"))
+        .arg(crate::common::root().join("models/spacecraft_aligned.json"))
         .arg("-o")
         .arg(directory)
         .args(further)

@@ -1,13 +1,9 @@
 //! Every shipped model is what its reference in `tests/references` says.
 //!
 //! After an intended change: `scripts/update-references.sh`, which prints what changed.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod common;
-
-use common::{abstraction, reference_mode, root, shipped_models};
-use dynabs::crosscheck::{Comparison, DiffOptions, Record, Tolerance, diff, open};
-use dynabs::imdp::Rows;
+use crate::common::{abstraction, reference_mode, root, shipped_models};
+use imdp::compare::{Comparison, DiffOptions, Record, Tolerance, diff, open};
+use imdp::model::Rows;
 use std::fs;
 
 const MODES: [&str; 2] = ["pac", "reference"];

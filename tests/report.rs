@@ -1,16 +1,12 @@
 //! Reports: complete, self-contained, well-formed, truthful; driven in a real browser if there is one.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod common;
-
+use crate::common::{document, reference_mode, root, shipped_models};
 use assert_cmd::Command;
-use common::{document, reference_mode, root, shipped_models};
 use dynabs::abstraction::compile;
 use dynabs::controller::Controller;
+use dynabs::model_file::Problem;
 use dynabs::report::{CROSS_CHECK, CrossChecks, Material, MaterialOptions, Picture, page, pictures};
-use dynabs::run_directory::{Manifest, Run, WriteOptions, write_run};
-use dynabs::solver::{Answer, SolverOptions};
-use dynabs::spec::Problem;
+use dynabs::run::{Manifest, Run, WriteOptions, write_run};
+use imdp::solver::{Answer, SolverOptions};
 use serde_json::Value;
 use std::fs;
 use std::io::Write;

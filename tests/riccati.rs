@@ -1,9 +1,5 @@
 //! The LQR gain of 200 random systems against scipy's.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod common;
-
-use dynabs::dynamics::{Lqr, spectral_radius};
+use dynabs::system::{Lqr, spectral_radius};
 use nalgebra::DMatrix;
 use serde_json::Value;
 
@@ -14,7 +10,7 @@ fn matrix(value: &Value) -> DMatrix<f64> {
 
 #[test]
 fn gains_agree_with_scipy() {
-    let cases = common::data("riccati.json");
+    let cases = crate::common::data("riccati.json");
     let cases = cases.as_array().unwrap();
     assert_eq!(cases.len(), 200);
     for (i, case) in cases.iter().enumerate() {

@@ -1,13 +1,9 @@
 //! The closed loop: reproducible, at or above its promise, and loud when something is wrong.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod common;
-
+use crate::common::controllers::Loop;
+use crate::common::{root, shipped_models};
 use assert_cmd::Command;
-use common::controllers::Loop;
-use common::{root, shipped_models};
 use dynabs::controller::{End, Noise, Simulation, Tally};
-use dynabs::spec::{GaussianSpec, NoiseSource, NoiseSpec, Problem};
+use dynabs::model_file::{GaussianSpec, NoiseSource, NoiseSpec, Problem};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

@@ -1,14 +1,10 @@
 //! The law that an enabled action promises: inside U, and at the target, from every state of the cell.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod common;
-
 use dynabs::abstraction::{Targets, enabled_actions};
-use dynabs::dynamics::{Extent, FeedbackLaw};
 use dynabs::geometry::Polytope;
-use dynabs::numeric::to_f64;
+use dynabs::model_file::{Document, Problem};
 use dynabs::partition::{CellId, Grid};
-use dynabs::spec::{Document, Problem};
+use dynabs::system::{Extent, FeedbackLaw};
+use imdp::numeric::to_f64;
 use nalgebra::{DMatrix, DVector};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
@@ -92,8 +88,8 @@ fn check(problem: &Problem, seed: u64) -> usize {
 
 #[test]
 fn inputs_stay_inside_and_targets_are_reached() {
-    for (seed, model) in (1..).zip(common::shipped_models()) {
-        let tried = check(&common::problem(&model, &[]).unwrap(), seed);
+    for (seed, model) in (1..).zip(crate::common::shipped_models()) {
+        let tried = check(&crate::common::problem(&model, &[]).unwrap(), seed);
         assert!(tried > 50, "{model}: only {tried} pairs");
     }
 }

@@ -1,11 +1,7 @@
 //! Values of the shipped models: the published ones in `reference` mode, the promised ones in `pac` mode.
-#![allow(missing_docs, clippy::unwrap_used)]
-
-mod common;
-
-use common::{abstraction, data, reference_mode, table_one_row};
+use crate::common::{abstraction, data, reference_mode, table_one_row};
 use dynabs::abstraction::Abstraction;
-use dynabs::solver::{Answer, SolverOptions};
+use imdp::solver::{Answer, SolverOptions};
 use serde_json::Value;
 
 /// The lower bound of every cell's value.

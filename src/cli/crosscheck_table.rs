@@ -1,7 +1,7 @@
 //! What a cross-check found, for people.
 
 use super::thousands;
-use crate::crosscheck::engines::Finding;
+use imdp::engines::Finding;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 

@@ -1,8 +1,8 @@
 //! Errors as the tools report them, and their exit codes.
 
-use crate::abstraction::AbstractionError;
-use crate::run_directory::RunDirectoryError;
-use crate::spec::Diagnostic;
+use dynabs::abstraction::AbstractionError;
+use dynabs::model_file::Diagnostic;
+use dynabs::run::RunDirectoryError;
 use std::io::{self, Write};
 use std::process::ExitCode;
 

@@ -1,10 +1,10 @@
 //! Values and policies as files, in PRISM's forms.
 
 use super::{CliError, StagedFiles};
-use crate::imdp::{IntervalMdp, StateId};
-use crate::property::Verdict;
-use crate::solver::{Answer, Policy};
-use crate::verify::Certificate;
+use imdp::certificate::Certificate;
+use imdp::model::{IntervalMdp, StateId};
+use imdp::property::Verdict;
+use imdp::solver::{Answer, Policy};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -21,7 +21,7 @@ pub(super) fn write_values(path: &Path, model: &IntervalMdp, answer: &Answer) ->
             match answer.verdict_of(state) {
                 None => {
                     let value = answer.values.lower[state as usize];
-                    writeln!(out, "{}", crate::numeric::shortest_decimal(value))?;
+                    writeln!(out, "{}", imdp::numeric::shortest_decimal(value))?;
                 }
                 Some(Verdict::Holds) => writeln!(out, "true")?,
                 Some(Verdict::Fails) => writeln!(out, "false")?,
@@ -71,7 +71,7 @@ pub(super) fn write_policy(path: &Path, model: &IntervalMdp, policy: &Policy) ->
 /// # Errors
 /// [`CliError::Failure`] if writing fails.
 pub(super) fn write_certificate(path: &Path, certificate: &Certificate) -> Result<(), CliError> {
-    replace(path, |out| crate::verify::write(certificate, out))
+    replace(path, |out| imdp::certificate::write(certificate, out))
 }
 
 /// Per state, the number of choices of the states before it.

@@ -1,11 +1,12 @@
 //! Where a model to be solved comes from: a run directory or a file of any format.
 
 use super::{Bars, CliError};
-use crate::formats::Format;
-use crate::imdp::IntervalMdp;
-use crate::progress::Progress;
-use crate::run_directory::{Manifest, NATIVE_MODEL, sha256_of_file};
-use crate::verify::ModelFile;
+use dynabs::run::{Manifest, NATIVE_MODEL};
+use imdp::certificate::ModelFile;
+use imdp::formats::Format;
+use imdp::formats::sha256_of_file;
+use imdp::model::IntervalMdp;
+use imdp::progress::Progress;
 use std::fs;
 use std::path::{Path, PathBuf};
 

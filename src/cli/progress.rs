@@ -1,7 +1,7 @@
 //! Progress bars for people who wait.
 
 use super::CliError;
-use crate::progress::Progress;
+use imdp::progress::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};

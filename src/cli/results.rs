@@ -1,7 +1,7 @@
 //! Answers as they are printed: a table for people, objects for programs.
 
-use crate::property::{Property, Verdict};
-use crate::solver::{Answer, Status};
+use imdp::property::{Property, Verdict};
+use imdp::solver::{Answer, Status};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 use std::process::ExitCode;

@@ -1,10 +1,10 @@
 //! A run directory opened and solved: where controllers come from.
 
 use super::{Bars, CliError};
-use crate::controller::{Controller, ControllerError};
-use crate::progress::Progress;
-use crate::run_directory::{OpenError, Run};
-use crate::solver::{Answer, SolverOptions, Status};
+use dynabs::controller::{Controller, ControllerError};
+use dynabs::run::{OpenError, Run};
+use imdp::progress::Progress;
+use imdp::solver::{Answer, SolverOptions, Status};
 use std::path::Path;
 use std::sync::Arc;
 

@@ -1,15 +1,15 @@
 //! Which noise a simulation has.
 
 use super::CliError;
-use crate::controller::Noise;
-use crate::run_directory::Run;
-use crate::spec::{GaussianSpec, NoiseSource, NoiseSpec, SampleKind, SamplesSpec, StepNoise};
 use clap::{Args, ValueEnum};
+use dynabs::controller::Noise;
+use dynabs::model_file::{GaussianSpec, NoiseSource, NoiseSpec, SampleKind, SamplesSpec, StepNoise};
+use dynabs::run::Run;
 use std::path::Path;
 
 /// The noise of a simulation.
 #[derive(Clone, Debug, Args)]
-pub struct NoiseArguments {
+pub(crate) struct NoiseArguments {
     /// `gaussian` (the model's distribution, or --covariance), `samples` (the model's, drawn with
     /// replacement), or a CSV file of other samples. Default: gaussian if the model has one, else samples.
     #[arg(long, value_name = "gaussian|samples|FILE")]

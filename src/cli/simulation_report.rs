@@ -2,10 +2,10 @@
 
 use super::simulation_noise::ChosenNoise;
 use super::{CliError, thousands};
-use crate::controller::export::{Promise, lower_bound_text};
-use crate::controller::{Controller, Frequency, Tally};
-use crate::numeric::{Rational, from_decimal, shortest_decimal, to_f64};
-use crate::run_directory::Run;
+use dynabs::controller::export::{Promise, lower_bound_text};
+use dynabs::controller::{Controller, Frequency, Tally};
+use dynabs::run::Run;
+use imdp::numeric::{Rational, from_decimal, shortest_decimal, to_f64};
 use num_traits::One;
 use serde::Serialize;
 use std::fmt::Write as _;

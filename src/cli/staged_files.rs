@@ -17,7 +17,7 @@ impl StagedFiles {
     ///
     /// # Errors
     /// [`CliError::Failure`] if writing fails.
-    pub fn write(
+    pub(crate) fn write(
         &mut self,
         path: &Path,
         fill: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
@@ -47,7 +47,7 @@ impl StagedFiles {
     ///
     /// # Errors
     /// [`CliError::Failure`] if the system refuses.
-    pub fn commit(self) -> Result<(), CliError> {
+    pub(crate) fn commit(self) -> Result<(), CliError> {
         for (file, path) in self.files.into_iter().rev() {
             file.persist(&path).map_err(|error| failure(&path, &error.error))?;
         }

@@ -1,7 +1,7 @@
 //! What a compilation was, for people.
 
 use super::thousands;
-use crate::run_directory::Manifest;
+use dynabs::run::Manifest;
 use std::fmt::Write as _;
 
 /// The summary of a run; `directory` is where it was written, if it was.

@@ -1,8 +1,8 @@
 //! Trajectories as CSV.
 
-use crate::controller::{Decision, Trajectory};
-use crate::numeric::shortest_decimal;
-use crate::spec::Problem;
+use dynabs::controller::{Decision, Trajectory};
+use dynabs::model_file::Problem;
+use imdp::numeric::shortest_decimal;
 use std::io::{self, Write};
 
 /// Writes one line per original step: `run`, `step`, the state `x…`, the input `u…` applied there, and `status`.

@@ -1,10 +1,10 @@
 //! Everything but writing, for the largest row of Table I: 39.8 million transitions in `reference` mode.
-#![allow(missing_docs, clippy::unwrap_used)]
+#![allow(missing_docs, clippy::unwrap_used, unreachable_pub)]
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use dynabs::abstraction::compile;
-use dynabs::solver::{Answer, SolverOptions};
-use dynabs::spec::{Document, Problem};
+use dynabs::model_file::{Document, Problem};
+use imdp::solver::{Answer, SolverOptions};
 use std::path::Path;
 
 fn problem(set: &str) -> Problem {

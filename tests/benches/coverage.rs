@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --bench coverage [-- REPLICATIONS]` prints a Markdown table; ends with 1 if some claim fails more
 //! often than promised.
-#![allow(missing_docs, clippy::unwrap_used)]
+#![allow(missing_docs, clippy::unwrap_used, unreachable_pub)]
 
 #[path = "../coverage/noise.rs"]
 mod noise;

@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use dynabs::formats::prism;
-use dynabs::imdp::{IntervalMdp, ModelKind};
+use imdp::formats::prism;
+use imdp::model::{IntervalMdp, ModelKind};
 use serde::Deserialize;
 
 #[derive(Deserialize)]

@@ -1,9 +1,10 @@
 //! Solving with a certificate that is written, read and accepted.
 
-use dynabs::imdp::IntervalMdp;
-use dynabs::property::Property;
-use dynabs::solver::{Answer, SolverOptions};
-use dynabs::verify::{self, Certificate, ModelFile, check};
+use imdp::certificate::{self, Certificate, ModelFile};
+use imdp::model::IntervalMdp;
+use imdp::property::Property;
+use imdp::solver::{Answer, SolverOptions};
+use imdp::verify::check;
 
 /// Any digest: the model is in memory.
 pub fn files() -> Vec<ModelFile> {
@@ -19,8 +20,8 @@ pub fn certified(
     let mut answer = Answer::new(model, property, &SolverOptions { evidence: true, ..*options }).unwrap();
     let certificate = answer.certificate(property, files()).unwrap();
     let mut bytes = vec![];
-    verify::write(&certificate, &mut bytes).unwrap();
-    assert_eq!(verify::read(&bytes).unwrap(), certificate, "{property}");
+    certificate::write(&certificate, &mut bytes).unwrap();
+    assert_eq!(certificate::read(&bytes).unwrap(), certificate, "{property}");
     let proved = check(&certificate, model, &files());
     let proved = proved.unwrap_or_else(|rejection| panic!("{property}: {rejection}\n{certificate:?}"));
     assert_eq!((proved.lower, proved.upper), (answer.lower, answer.upper), "{property}");

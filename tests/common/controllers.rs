@@ -2,9 +2,9 @@
 
 use dynabs::abstraction::{Abstraction, compile};
 use dynabs::controller::Controller;
-use dynabs::numeric::to_f64;
-use dynabs::solver::{Answer, SolverOptions};
-use dynabs::spec::Problem;
+use dynabs::model_file::Problem;
+use imdp::numeric::to_f64;
+use imdp::solver::{Answer, SolverOptions};
 use rand::Rng;
 use rand_chacha::ChaCha12Rng;
 

@@ -1,10 +1,12 @@
 //! What integration tests share.
 #![allow(dead_code)]
 
+pub mod cases;
+pub mod certified;
 pub mod controllers;
 
 use dynabs::abstraction::{Abstraction, compile};
-use dynabs::spec::{Diagnostic, Document, Problem};
+use dynabs::model_file::{Diagnostic, Document, Problem};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};

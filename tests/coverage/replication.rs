@@ -3,11 +3,11 @@
 use crate::noise::Noise;
 use crate::truth::{Layout, Truth, problem, satisfaction};
 use dynabs::abstraction::{Abstraction, compile};
-use dynabs::numeric::to_f64;
+use dynabs::model_file::Problem;
 use dynabs::partition::CellId;
-use dynabs::solver::{Answer, SolverOptions};
-use dynabs::spec::Problem;
 use dynabs::statistics::{lower_bound, upper_bound};
+use imdp::numeric::to_f64;
+use imdp::solver::{Answer, SolverOptions};
 use std::ops::AddAssign;
 use std::path::Path;
 

@@ -2,12 +2,12 @@
 
 use crate::noise::Noise;
 use dynabs::abstraction::Abstraction;
-use dynabs::imdp::{Row, StateId};
+use dynabs::model_file::{Document, Problem};
 use dynabs::noise::NoiseSamples;
-use dynabs::numeric::to_f64;
 use dynabs::partition::{CellId, CellKind};
-use dynabs::solver::Policy;
-use dynabs::spec::{Document, Problem};
+use imdp::model::{Row, StateId};
+use imdp::numeric::to_f64;
+use imdp::solver::Policy;
 use serde_json::{Value, json};
 use std::path::Path;
 

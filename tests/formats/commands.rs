@@ -20,7 +20,7 @@ fn succeed(tool: &str, arguments: &[&str]) -> String {
 fn every_format_is_compiled_converted_and_solved() {
     let scratch = tempfile::tempdir().unwrap();
     let at = |name: &str| scratch.path().join(name).to_str().unwrap().to_owned();
-    let model = common::root().join("models/room_temperature.json");
+    let model = crate::common::root().join("models/room_temperature.json");
     let model = model.to_str().unwrap();
     let (plain, rows) = (at("plain"), at("rows"));
     succeed("dynabs-compile", &[model, "-o", &plain, "--format", "prism,drn", "--format", "umb", "-q"]);

@@ -1,8 +1,8 @@
 //! DRN: what is written, what Storm's dialect means, what is refused and where.
 
 use super::*;
-use dynabs::formats::drn::{DrnWriter, import};
-use dynabs::formats::{ImportError, Imported};
+use imdp::formats::drn::{DrnWriter, import};
+use imdp::formats::{ImportError, Imported};
 
 const TINY: &str = include_str!("data/tiny.drn");
 

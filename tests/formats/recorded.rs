@@ -1,10 +1,10 @@
 //! Small files that other tools wrote, beside what they mean. How they were made: scripts/check-formats.py.
 
 use super::*;
-use dynabs::formats::drn::DrnWriter;
+use imdp::formats::drn::DrnWriter;
 
 fn recorded(name: &str) -> PathBuf {
-    common::root().join("tests/formats/data").join(name)
+    crate::common::root().join("tests/formats/data").join(name)
 }
 
 fn as_drn(path: &Path) -> String {

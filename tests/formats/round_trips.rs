@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::common::{abstraction, data, shipped_models, table_one_row};
-use crate::random::{any_model, set};
-use dynabs::formats::prism::RAISED_LOWER_BOUND;
+use crate::solver::models::{any_model, set};
+use imdp::formats::prism::RAISED_LOWER_BOUND;
 use proptest::prelude::*;
 
 const ALL: [Format; 4] = Format::ALL;

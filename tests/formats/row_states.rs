@@ -2,10 +2,10 @@
 
 use super::*;
 use crate::common::{abstraction, shipped_models};
-use crate::random::any_model;
-use dynabs::formats::row_states::RowStates;
-use dynabs::property::Property;
-use dynabs::solver::{Answer, SolverOptions};
+use crate::solver::models::any_model;
+use imdp::formats::row_states::RowStates;
+use imdp::property::Property;
+use imdp::solver::{Answer, SolverOptions};
 use proptest::prelude::*;
 
 const OPERATORS: [&str; 4] = ["maxmin", "maxmax", "minmin", "minmax"];

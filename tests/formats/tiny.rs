@@ -1,6 +1,6 @@
 //! A small model with everything that a format may have no place for.
 
-use dynabs::imdp::*;
+use imdp::model::*;
 
 fn set(states: usize, members: &[usize]) -> StateSet {
     let mut set = StateSet::with_capacity(states);

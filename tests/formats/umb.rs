@@ -1,8 +1,8 @@
 //! UMB: reproducible bytes, what is refused and where, and that damage never panics.
 
 use super::*;
-use dynabs::formats::umb::{Compression, UmbWriter, import};
-use dynabs::formats::{ImportError, Imported};
+use imdp::formats::umb::{Compression, UmbWriter, import};
+use imdp::formats::{ImportError, Imported};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::{Read, Write};

@@ -1,8 +1,8 @@
 //! What is read, and how it is shared.
 
-use dynabs::formats::prism::import_with_progress;
-use dynabs::formats::{Imported, Place, Warning};
-use dynabs::imdp::{ActionNames, ModelKind, RowRange, VariableValues};
+use imdp::formats::prism::import_with_progress;
+use imdp::formats::{Imported, Place, Warning};
+use imdp::model::{ActionNames, ModelKind, RowRange, VariableValues};
 
 use super::{Files, LAB, STA, TRA, assert_refused, import_texts};
 

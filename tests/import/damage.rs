@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use dynabs::formats::{Imported, Warning};
-use dynabs::imdp::{IntervalMdp, StateVariable};
+use imdp::formats::{Imported, Warning};
+use imdp::model::{IntervalMdp, StateVariable};
 use proptest::prelude::*;
 
 use super::{Files, LAB, STA, TRA};

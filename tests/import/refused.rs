@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use dynabs::formats::ImportError;
-use dynabs::formats::prism::import;
+use imdp::formats::ImportError;
+use imdp::formats::prism::import;
 
 use super::{Files, LAB, STA, TRA, assert_refused, import_texts};
 

@@ -1,6 +1,6 @@
 //! Random and hand-made models.
 
-use dynabs::imdp::*;
+use imdp::model::*;
 use proptest::prelude::*;
 
 pub type Entries = Vec<(u32, f64, f64)>;

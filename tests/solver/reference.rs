@@ -1,7 +1,7 @@
 //! Exact values by brute force: every policy against every vertex of every row, in rationals.
 
-use dynabs::imdp::{IntervalMdp, StateSet};
-use dynabs::numeric::from_decimal;
+use imdp::model::{IntervalMdp, StateSet};
+use imdp::numeric::from_decimal;
 use num_rational::{BigRational, Ratio};
 use num_traits::{One, ToPrimitive, Zero};
 
@@ -44,7 +44,7 @@ pub fn pour(lower: &[Exact], upper: &[Exact], order: &[usize]) -> Vec<Exact> {
 
 /// The vertices of every row, as distributions over all states.
 fn vertices(model: &IntervalMdp) -> Vec<Vec<Vec<Exact>>> {
-    let of_row = |row: dynabs::imdp::Row<'_>| {
+    let of_row = |row: imdp::model::Row<'_>| {
         let lower: Vec<_> = row.lower.iter().map(|&x| exact(x)).collect();
         let upper: Vec<_> = row.upper.iter().map(|&x| exact(x)).collect();
         let mut all: Vec<Vec<Exact>> = vec![];

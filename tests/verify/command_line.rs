@@ -1,6 +1,6 @@
 //! `solve --certificate` and `verify`, from the outside.
 
-use super::common::root;
+use crate::common::root;
 use assert_cmd::Command;
 use std::fs;
 use std::path::Path;
@@ -57,7 +57,7 @@ fn certificates_are_written_and_verified() {
         assert!(text.contains(from), "{from}");
         let text = text.replacen(from, to, 1);
         let content = &text[..text.rfind("end ").unwrap()];
-        let digest = dynabs::run_directory::sha256_hex(content.as_bytes());
+        let digest = imdp::formats::sha256_hex(content.as_bytes());
         fs::write(&certificate, format!("{content}end {digest}\n")).unwrap();
         verify(&certificate, &directory)
     };

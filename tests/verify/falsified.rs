@@ -1,13 +1,14 @@
 //! False certificates, made from all honest ones of the test suite's cases.
 
-use super::cases::{Case, for_every_case};
-use super::certified::{certified, files};
 use super::oracle::{Oracle, rational};
-use dynabs::imdp::IntervalMdp;
-use dynabs::numeric::{Rational, to_f64_down, to_f64_up};
-use dynabs::property::Property;
-use dynabs::solver::SolverOptions;
-use dynabs::verify::{self, Certificate, Evidence, Step, check};
+use crate::common::cases::{Case, for_every_case};
+use crate::common::certified::{certified, files};
+use imdp::certificate::{self, Certificate, Evidence, Step};
+use imdp::model::IntervalMdp;
+use imdp::numeric::{Rational, to_f64_down, to_f64_up};
+use imdp::property::Property;
+use imdp::solver::SolverOptions;
+use imdp::verify::check;
 use num_traits::One;
 use std::collections::BTreeMap;
 
@@ -86,11 +87,11 @@ fn falsify_header(rejected: &mut Rejected, honest: &Certificate, model: &Interva
     rejected.judge("another model", &other, model, false);
 
     let mut bytes = vec![];
-    verify::write(honest, &mut bytes).unwrap();
+    certificate::write(honest, &mut bytes).unwrap();
     let starts = (0..bytes.len()).filter(|&at| at == 0 || bytes[at - 1] == b'\n');
     let places = starts.flat_map(|at| [at, at + 1, at + 9]).chain([bytes.len() - 1, bytes.len() - 20]);
     for length in places.filter(|&length| length < bytes.len()) {
-        assert!(verify::read(&bytes[..length]).is_err(), "{} bytes of {bytes:?}", length);
+        assert!(certificate::read(&bytes[..length]).is_err(), "{} bytes of {bytes:?}", length);
         *rejected.0.entry("truncated").or_default() += 1;
     }
 }

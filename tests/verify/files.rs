@@ -1,10 +1,11 @@
 //! The file: what is written is read, and nothing else is.
 
-use super::certified::certified;
-use super::common::abstraction;
-use super::models::{labelled, model, set};
-use dynabs::solver::{Answer, SolverOptions};
-use dynabs::verify::{CertificateError, Rejection, check, read, write};
+use crate::common::abstraction;
+use crate::common::certified::certified;
+use crate::solver::models::{labelled, model, set};
+use imdp::certificate::{CertificateError, read, write};
+use imdp::solver::{Answer, SolverOptions};
+use imdp::verify::{Rejection, check};
 use proptest::prelude::*;
 
 fn room() -> Vec<u8> {
@@ -18,7 +19,7 @@ fn room() -> Vec<u8> {
 /// The text with its digest made right again.
 fn sealed(text: &str) -> Vec<u8> {
     let content = &text[..text.rfind("end ").unwrap()];
-    format!("{content}end {}\n", dynabs::run_directory::sha256_hex(content.as_bytes())).into_bytes()
+    format!("{content}end {}\n", imdp::formats::sha256_hex(content.as_bytes())).into_bytes()
 }
 
 #[test]

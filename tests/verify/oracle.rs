@@ -1,9 +1,9 @@
 //! Steps of certificates judged by the definitions, slowly and in rationals throughout.
 
-use dynabs::imdp::{IntervalMdp, StateSet};
-use dynabs::numeric::{Rational, from_decimal, from_dyadic};
-use dynabs::property::{Property, QueryKind};
-use dynabs::verify::Step;
+use imdp::certificate::Step;
+use imdp::model::{IntervalMdp, StateSet};
+use imdp::numeric::{Rational, from_decimal, from_dyadic};
+use imdp::property::{Property, QueryKind};
 use num_traits::{One, Zero};
 
 pub struct Oracle<'a> {

@@ -1,13 +1,14 @@
 //! Random models and random lies: whatever is accepted is true.
 
-use super::certified::{certified, files};
-use super::exact;
-use super::models::{any_model, labelled};
 use super::oracle::{Oracle, rational};
-use dynabs::numeric::Rational;
-use dynabs::property::{Property, Resolution};
-use dynabs::solver::SolverOptions;
-use dynabs::verify::{Certificate, Evidence, check};
+use crate::common::certified::{certified, files};
+use crate::solver::models::{any_model, labelled};
+use crate::solver::reference as exact;
+use imdp::certificate::{Certificate, Evidence};
+use imdp::numeric::Rational;
+use imdp::property::{Property, Resolution};
+use imdp::solver::SolverOptions;
+use imdp::verify::check;
 use proptest::prelude::*;
 
 /// What to change: which list, which entry, and how.

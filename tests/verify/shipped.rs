@@ -1,9 +1,9 @@
 //! Shipped models: both modes, with and without a bound on the steps.
 
-use super::certified::certified;
-use super::common::{abstraction, reference_mode, shipped_models};
-use dynabs::property::{Property, Resolution};
-use dynabs::solver::{SolverOptions, Status};
+use crate::common::certified::certified;
+use crate::common::{abstraction, reference_mode, shipped_models};
+use imdp::property::{Property, Resolution};
+use imdp::solver::{SolverOptions, Status};
 use std::sync::atomic::AtomicBool;
 
 #[test]

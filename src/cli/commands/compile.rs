@@ -1,0 +1,280 @@
+//! `dynabs-compile`: from a model file to PRISM files.
+
+use super::solve::{LimitArguments, Wanted, answer};
+use crate::results::{PropertyResult, exit_code, table};
+use crate::summary::summary;
+use crate::{Bars, CliError, EncodingName, FormatName, print, use_threads};
+use clap::Parser;
+use dynabs::abstraction::{Abstraction, compile};
+use dynabs::model_file::{Document, Problem, SetArgument, json_schema, starter_model};
+use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, write_run};
+use imdp::solver::Pruned;
+use serde_json::{Value, json};
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Compile a noisy linear control system into an interval MDP with guaranteed probabilities, for PRISM.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "dynabs-compile", version, after_help = AFTER_HELP)]
+pub struct Arguments {
+    /// The model file (JSON).
+    #[arg(required_unless_present_any = ["init", "schema"])]
+    model: Option<PathBuf>,
+
+    /// Write the model to this directory, which is created.
+    #[arg(short, long, value_name = "DIR", required_unless_present_any = ["dry_run", "init", "schema"])]
+    output: Option<PathBuf>,
+
+    /// Replace a value of the model file; VALUE is JSON, or else a string. Repeatable.
+    #[arg(long = "set", value_name = "/json/pointer=VALUE")]
+    set: Vec<String>,
+
+    /// Draw Gaussian noise with this seed instead of the model's.
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+
+    /// Write the model in these formats as well; model.dynabs is always written.
+    #[arg(long, value_name = "FORMAT", value_enum, value_delimiter = ',', default_values_t = [FormatName::Prism])]
+    format: Vec<FormatName>,
+
+    /// How choices are written in these formats: as they are (model.*), or with one state per row (rows.*).
+    #[arg(long, value_name = "ENCODING", value_enum, default_value_t)]
+    encoding: EncodingName,
+
+    /// Leave out the explicit files model.tra, model.sta and model.lab: the same as --format dynabs.
+    #[arg(long, conflicts_with = "format")]
+    no_tra: bool,
+
+    /// Solve the task natively as well.
+    #[arg(long)]
+    solve: bool,
+
+    /// Solve the task and keep only the actions that an optimal policy takes: a small model with the same value of
+    /// this one property. Implies --solve.
+    #[arg(long)]
+    prune: bool,
+
+    /// Do everything but write files.
+    #[arg(long)]
+    dry_run: bool,
+
+    /// Replace the output of an earlier run.
+    #[arg(long)]
+    force: bool,
+
+    /// Print one JSON object, the manifest with times, instead of the summary.
+    #[arg(long)]
+    json: bool,
+
+    /// Print nothing but errors (and the object of --json).
+    #[arg(short, long)]
+    quiet: bool,
+
+    /// Use this many threads; the output does not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+
+    /// Write a starter model to FILE.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["model", "output", "schema"])]
+    init: Option<PathBuf>,
+
+    /// Print the JSON Schema of the model file.
+    #[arg(long, conflicts_with_all = ["model", "output"])]
+    schema: bool,
+}
+
+/// Without a bound on the steps, how close the bounds must be before it is decided what matters.
+const PRUNING_EPSILON: f64 = 1e-9;
+
+const AFTER_HELP: &str = "\
+Exit codes: 0 done, 2 bad input or usage, 4 I/O or internal error;
+with --solve or --prune also 1 the threshold is missed, 3 undecided (limit, interrupt, bounds straddle the threshold).
+
+Examples:
+  dynabs-compile --init my-model.json
+  dynabs-compile models/double_integrator.json -o out
+  dynabs-compile models/double_integrator.json --dry-run --set /input/lower=[-40] --set /input/upper=[40]
+  dynabs-compile models/double_integrator.json -o out --format umb,drn
+  dynabs-compile models/double_integrator.json -o out --encoding rows
+  prism -importmodel out/model.tra,sta,lab -ex out/model.props";
+
+/// Runs the tool.
+///
+/// # Errors
+/// [`CliError`], which knows its exit code.
+pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
+    if arguments.schema {
+        print(&json_schema())?;
+    } else if let Some(file) = &arguments.init {
+        write_starter(file, arguments.quiet)?;
+    } else if let Some(model) = &arguments.model {
+        use_threads(arguments.threads)?;
+        return compile_model(arguments, model);
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn write_starter(file: &Path, quiet: bool) -> Result<(), CliError> {
+    let shown = file.display();
+    let created = fs::OpenOptions::new().write(true).create_new(true).open(file);
+    let written = created.and_then(|mut out| out.write_all(starter_model().as_bytes()));
+    written.map_err(|error| match error.kind() {
+        io::ErrorKind::AlreadyExists => CliError::Input(format!(
+            "{shown}: found a file; expected a new name, since --init never overwrites"
+        )),
+        io::ErrorKind::NotFound => {
+            CliError::Input(format!("{shown}: found no such directory; expected one that exists"))
+        }
+        _ => CliError::Failure(format!("{shown}: {error}")),
+    })?;
+    if !quiet {
+        print(&format!("Wrote {shown}. Try it:\n  dynabs-compile {shown} --dry-run\n"))?;
+    }
+    Ok(())
+}
+
+fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliError> {
+    let start = Instant::now();
+    let bars = Arc::new(Bars::new(arguments.quiet));
+    if let Some(output) = arguments.output.as_deref().filter(|_| !arguments.dry_run) {
+        // Before any work: a place that is taken will still be taken afterwards.
+        Staging::check(output, arguments.force)?;
+    }
+    let source = read_model(path)?;
+    let (document, mut notes) = configure(path, &source, arguments)?;
+    let problem = Problem::from_document(&document)?;
+    let mut phases = vec![("model file", start.elapsed())];
+
+    let mut abstraction =
+        compile(&problem, &*bars).map_err(|error| CliError::of_abstraction(&error, &document.name))?;
+    phases.extend(&abstraction.phases);
+    // Until here there is nothing to clean up, and nothing to print.
+    bars.catch_interrupts()?;
+    let mut results = Vec::new();
+    let mut pruning = None;
+    if arguments.prune {
+        let solving = Instant::now();
+        let (result, report) = prune(&mut abstraction, &bars)?;
+        results.push(result);
+        notes.push(format!("{}; {}", report.kept, report.scope));
+        pruning = Some(report);
+        phases.push(("pruning", solving.elapsed()));
+    }
+    let mut manifest = Manifest::new(&document, &source, &problem, &abstraction);
+    manifest.set.clone_from(&arguments.set);
+    manifest.warnings.append(&mut notes);
+    manifest.pruning = pruning;
+
+    if let Some(output) = arguments.output.as_deref().filter(|_| !arguments.dry_run) {
+        let writing = Instant::now();
+        let options = WriteOptions {
+            formats: if arguments.no_tra {
+                vec![]
+            } else {
+                arguments.format.iter().map(|&name| name.into()).collect()
+            },
+            encoding: arguments.encoding.into(),
+            force: arguments.force,
+        };
+        manifest = write_run(output, &document, &problem, &abstraction, manifest, options, &*bars)?;
+        phases.push(("files", writing.elapsed()));
+    }
+    if arguments.solve && !arguments.prune {
+        let limits = LimitArguments::default();
+        let solving = Instant::now();
+        let (model, property) = (&abstraction.model, &abstraction.property);
+        results.push(answer(model, property, &limits, Wanted::default(), &bars)?.1);
+        phases.push(("solving", solving.elapsed()));
+    }
+    report(arguments, &manifest, &phases, &results)?;
+    Ok(exit_code(&results))
+}
+
+/// Replaces the model by what an optimal policy needs of it.
+fn prune(abstraction: &mut Abstraction, bars: &Bars) -> Result<(PropertyResult, PruningReport), CliError> {
+    let start = Instant::now();
+    let property = &abstraction.property;
+    let limits = LimitArguments::of_epsilon(PRUNING_EPSILON);
+    let pruned = limits.with_options(bars, |options| Pruned::new(&abstraction.model, property, options));
+    let pruned = pruned.map_err(|error| CliError::Failure(format!("--prune: {property}: {error}")))?;
+    let result = PropertyResult::new(property, &pruned.after, start.elapsed());
+    let report = PruningReport::new(property, abstraction.model.size(), &pruned);
+    abstraction.model = pruned.model;
+    Ok((result, report))
+}
+
+fn read_model(path: &Path) -> Result<String, CliError> {
+    fs::read_to_string(path).map_err(|error| {
+        let shown = path.display();
+        match error.kind() {
+            io::ErrorKind::NotFound => CliError::Input(format!(
+                "{shown}: found no such file; expected a model file\n  dynabs-compile --init {shown} writes one to start from."
+            )),
+            io::ErrorKind::InvalidData | io::ErrorKind::IsADirectory => {
+                CliError::Input(format!("{shown}: found something that is not text; expected a model file in JSON"))
+            }
+            _ => CliError::Failure(format!("{shown}: {error}")),
+        }
+    })
+}
+
+/// Parses the file and applies `--set` and `--seed`; returns the document and what to note about it.
+fn configure(path: &Path, source: &str, arguments: &Arguments) -> Result<(Document, Vec<String>), CliError> {
+    let mut document = Document::parse(path, source)?;
+    for text in &arguments.set {
+        let argument: SetArgument =
+            text.parse().map_err(|error| CliError::Input(format!("--set: {error}")))?;
+        document.set(&argument)?;
+    }
+    let mut notes = Vec::new();
+    if let Some(seed) = arguments.seed {
+        match document.value.pointer_mut("/noise") {
+            Some(Value::Object(noise)) if noise.contains_key("gaussian") => {
+                noise.insert("seed".to_owned(), seed.into());
+            }
+            _ => notes.push("--seed has no effect: the noise samples come from a file".to_owned()),
+        }
+    }
+    Ok((document, notes))
+}
+
+fn report(
+    arguments: &Arguments,
+    manifest: &Manifest,
+    phases: &[(&str, Duration)],
+    results: &[PropertyResult],
+) -> Result<(), CliError> {
+    if !arguments.quiet {
+        let mut text = String::new();
+        for warning in &manifest.warnings {
+            text += &format!("warning: {warning}\n");
+        }
+        let times: Vec<_> = phases.iter().map(|(name, time)| format!("{name} {time:.1?}")).collect();
+        text += &format!("times: {}\n", times.join(", "));
+        // If stderr is closed there is nobody to warn.
+        let _ = io::stderr().write_all(text.as_bytes());
+    }
+    if arguments.json {
+        let times: serde_json::Map<String, Value> =
+            phases.iter().map(|(name, time)| ((*name).to_owned(), time.as_secs_f64().into())).collect();
+        let mut object = serde_json::to_value(manifest)
+            .map_err(|error| CliError::Failure(format!("the manifest has no JSON form: {error}")))?;
+        if let Value::Object(object) = &mut object {
+            object.insert("seconds".to_owned(), Value::Object(times));
+            if !results.is_empty() {
+                object.insert("results".to_owned(), json!(results));
+            }
+        }
+        print(&format!("{object:#}\n"))
+    } else if arguments.quiet {
+        Ok(())
+    } else {
+        let directory = arguments.output.as_ref().filter(|_| !arguments.dry_run);
+        let text = summary(manifest, directory.map(|path| path.display().to_string()).as_deref());
+        print(&(text + &table(results)))
+    }
+}

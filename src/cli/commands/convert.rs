@@ -1,0 +1,157 @@
+//! `dynabs-check convert`: from one format to another.
+
+use crate::model_source::load;
+use crate::{Bars, CliError, EncodingName, FormatName, StagedFiles, print, thousands};
+use clap::Args;
+use imdp::formats::prism::RAISED_LOWER_BOUND;
+use imdp::formats::row_states::{EncodingError, RowStates};
+use imdp::formats::umb::Compression;
+use imdp::formats::{Format, ModelWriter, WriteError};
+use imdp::progress::Progress;
+use imdp::property::{Property, parse_properties};
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+
+/// What to convert into what.
+#[derive(Clone, Debug, Args)]
+pub struct ConvertArguments {
+    /// A directory written by dynabs-compile, or a .tra, .drn, .umb or .dynabs file.
+    input: PathBuf,
+
+    /// The file to write; its extension tells the format. With .tra, a .sta and a .lab file are written beside it; where
+    /// INPUT has properties, a .props file as well.
+    output: PathBuf,
+
+    /// The format, whatever the extension.
+    #[arg(long, value_name = "FORMAT")]
+    to: Option<FormatName>,
+
+    /// How choices are written: as they are, or with one state per row.
+    #[arg(long, value_name = "ENCODING", default_value_t, value_enum)]
+    encoding: EncodingName,
+
+    /// Write UMB without compression.
+    #[arg(long)]
+    uncompressed: bool,
+
+    /// Read model.tra of a directory instead of its native file.
+    #[arg(long)]
+    explicit: bool,
+
+    /// Replace files that exist.
+    #[arg(long)]
+    force: bool,
+
+    /// Print nothing but errors.
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+impl From<WriteError> for CliError {
+    fn from(error: WriteError) -> Self {
+        Self::Input(error.to_string())
+    }
+}
+
+impl From<EncodingError> for CliError {
+    fn from(error: EncodingError) -> Self {
+        Self::Input(error.to_string())
+    }
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// [`CliError`], which knows its exit code.
+pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
+    let output = &arguments.output;
+    let Some(format) = arguments.to.map(Format::from).or_else(|| Format::of_path(output)) else {
+        return Err(CliError::Input(format!(
+            "{}: found a name of no known format; expected one that ends in .tra, .drn, .umb or .dynabs, or --to",
+            output.display()
+        )));
+    };
+    refuse_existing(arguments, format)?;
+    let bars = Arc::new(Bars::new(arguments.quiet));
+    let loaded = load(&arguments.input, arguments.explicit, &bars)?;
+    let properties = read_properties(&loaded.properties)?;
+    let mut warnings = loaded.warnings;
+    let mut model = loaded.model;
+    let mut texts: Vec<String> = properties.iter().map(ToString::to_string).collect();
+    if arguments.encoding == EncodingName::Rows {
+        let encoded = RowStates::new(&model)?;
+        texts = properties.iter().map(|property| encoded.translate(property)).collect::<Result<_, _>>()?;
+        model = encoded.model;
+    }
+    if format == Format::Prism && model.rows().iter().any(|row| row.lower.contains(&0.0)) {
+        warnings.push(format!("lower bounds of 0 are written as {RAISED_LOWER_BOUND:e}: PRISM refuses 0"));
+    }
+    bars.catch_interrupts()?;
+    let mut files = StagedFiles::default();
+    let compression = if arguments.uncompressed { Compression::None } else { Compression::Gzip };
+    let writer = ModelWriter::new(&model, format, compression)?;
+    for (i, extension) in writer.extensions().iter().enumerate() {
+        // The first file has the name that was asked for, whatever its extension.
+        let path = if i == 0 { output.clone() } else { output.with_extension(extension) };
+        bars.start("writing", if i == 0 { writer.bytes() } else { 0 });
+        files.write(&path, |out| writer.write(extension, out, &*bars))?;
+        bars.finish();
+    }
+    if !texts.is_empty() && !keeps_properties(arguments) {
+        let text = texts.iter().map(|text| format!("{text}\n")).collect::<String>();
+        files.write(&output.with_extension("props"), |out| out.write_all(text.as_bytes()))?;
+    }
+    files.commit()?;
+    if !arguments.quiet {
+        let text: String = warnings.iter().map(|warning| format!("warning: {warning}\n")).collect();
+        // If stderr is closed there is nobody to warn.
+        let _ = io::stderr().write_all(text.as_bytes());
+        let size = model.size();
+        print(&format!(
+            "{}: {} states, {} choices, {} transitions\n",
+            output.display(),
+            thousands(size.states),
+            thousands(size.choices),
+            thousands(size.transitions)
+        ))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn refuse_existing(arguments: &ConvertArguments, format: Format) -> Result<(), CliError> {
+    let output = &arguments.output;
+    let mut written = vec![output.clone()];
+    if format == Format::Prism {
+        written.extend(["sta", "lab"].map(|extension| output.with_extension(extension)));
+    }
+    if !keeps_properties(arguments) {
+        written.push(output.with_extension("props"));
+    }
+    match written.into_iter().find(|path| path.exists()).filter(|_| !arguments.force) {
+        Some(path) => Err(CliError::Input(format!(
+            "{}: found a file; expected a new name\n  Replace what is there with --force.",
+            path.display()
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// Whether the properties stay where they are, beside another file of the same model.
+fn keeps_properties(arguments: &ConvertArguments) -> bool {
+    let input = &arguments.input;
+    let beside = if input.is_dir() { input.join("model.props") } else { input.with_extension("props") };
+    arguments.encoding == EncodingName::Plain && beside == arguments.output.with_extension("props")
+}
+
+fn read_properties(path: &Path) -> Result<Vec<Property>, CliError> {
+    match fs::read_to_string(path) {
+        Ok(text) => {
+            parse_properties(&text).map_err(|error| CliError::Input(format!("{}: {error}", path.display())))
+        }
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(vec![]),
+        Err(error) => Err(CliError::Failure(format!("{}: {error}", path.display()))),
+    }
+}

@@ -1,0 +1,210 @@
+//! `dynabs-check crosscheck`: the same question to other people's solvers.
+
+use super::solve::{LimitArguments, properties};
+use crate::crosscheck_table::table;
+use crate::model_source::load;
+use crate::{Bars, CliError, print};
+use clap::{Args, ValueEnum};
+use dynabs::run::NATIVE_MODEL;
+use imdp::engines::{
+    Agreement, CrossCheckOptions, Engine, EngineMissing, Finding, Prism, RunLimits, Storm, Subject,
+    cross_check, raised,
+};
+use imdp::model::available_memory;
+use serde_json::json;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// What to ask, whom, and for how long.
+#[derive(Clone, Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct CrosscheckArguments {
+    /// A directory written by dynabs-compile, or a .tra file with .sta and .lab beside it.
+    path: PathBuf,
+
+    /// The engine to ask.
+    #[arg(long, value_enum, default_value_t = With::All)]
+    with: With,
+
+    /// A property in PRISM's syntax, or a .props file; repeatable. Default: the .props file of the model.
+    #[arg(short, long = "property", value_name = "PROPERTY")]
+    properties: Vec<String>,
+
+    /// PRISM's program. Default: $PRISM, or prism in PATH.
+    #[arg(long, value_name = "PATH")]
+    prism: Option<PathBuf>,
+
+    /// A Python that can import stormpy. Default: $DYNABS_PYTHON, that of $VIRTUAL_ENV, or python3.
+    #[arg(long, value_name = "PATH")]
+    python: Option<PathBuf>,
+
+    /// End an engine that takes longer than this many seconds for one property.
+    #[arg(long, value_name = "SECONDS", default_value_t = 600.0, value_parser = seconds)]
+    timeout: f64,
+
+    /// The memory an engine may use, such as 512m or 8g. Default: three quarters of what is available.
+    #[arg(long, value_name = "SIZE", value_parser = mebibytes)]
+    memory: Option<u64>,
+
+    /// Unbounded properties: how close our own bounds must be.
+    #[arg(long, value_name = "E", default_value_t = 1e-10, value_parser = super::solve::positive)]
+    epsilon: f64,
+
+    /// Print one JSON object instead of the table.
+    #[arg(long)]
+    json: bool,
+
+    /// Print nothing but errors (and the object of --json).
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Which engines to ask.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum With {
+    /// PRISM's explicit engine.
+    Prism,
+    /// Storm, by its Python bindings.
+    Storm,
+    /// Both.
+    All,
+}
+
+const AFTER_HELP: &str = "\
+Compares the values of all states with our bounds, and what an engine's strategy is worth with what it claims.
+Exit codes: 0 every engine agrees; 1 one disagrees; 2 bad input, or none of the engines is installed; 3 nobody
+disagrees, but an engine is missing, failed, ran out of time or memory, or one of us stopped too early to tell.
+
+Examples:
+  dynabs-check crosscheck out --with all
+  dynabs-check crosscheck out --with prism --prism ~/prism/bin/prism --memory 8g -p 'Pmaxmin=? [ F \"reached\" ]'";
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let number = super::solve::positive(text)?;
+    Duration::try_from_secs_f64(number).map(|_| number).map_err(|error| error.to_string())
+}
+
+fn mebibytes(text: &str) -> Result<u64, String> {
+    let (digits, factor) = match text.to_ascii_lowercase() {
+        lower if lower.ends_with('g') => (lower[..lower.len() - 1].to_owned(), 1024),
+        lower => (lower.strip_suffix('m').map(str::to_owned).unwrap_or_default(), 1),
+    };
+    let number = digits.parse::<u64>().ok().and_then(|n| n.checked_mul(factor)).filter(|n| *n >= 16);
+    number.ok_or_else(|| "expected at least 16m, such as 512m or 8g".to_owned())
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// [`CliError`], which knows its exit code.
+pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
+    let Engines { found, missing } = find_engines(arguments)?;
+    let bars = Arc::new(Bars::new(arguments.quiet));
+    let loaded = load(&arguments.path, false, &bars)?;
+    let properties = properties(&arguments.properties, &loaded.properties)?;
+    let failure = |error| CliError::Failure(format!("{}: {error}", arguments.path.display()));
+    let raised = raised(&loaded.model).map_err(failure)?;
+    let files = explicit_files(&arguments.path, raised.is_some());
+    let subject = Subject { model: &loaded.model, raised: raised.as_ref(), files: files.as_ref() };
+    say(arguments, &loaded.warnings, "warning: ");
+    say(arguments, &missing.iter().map(ToString::to_string).collect::<Vec<_>>(), "missing: ");
+
+    bars.catch_interrupts()?;
+    let memory_mib =
+        arguments.memory.unwrap_or_else(|| available_memory().map_or(4096, |bytes| (bytes >> 20) / 4 * 3));
+    let limits = RunLimits {
+        timeout: Duration::from_secs_f64(arguments.timeout),
+        memory_mib,
+        interrupt: Some(bars.interrupt()),
+    };
+    let engines: Vec<&dyn Engine> = found.iter().map(|engine| &**engine).collect();
+    let findings = LimitArguments::of_epsilon(arguments.epsilon).with_options(&bars, |solver| {
+        cross_check(&subject, &properties, &engines, &CrossCheckOptions { solver: *solver, limits })
+    })?;
+    if arguments.json {
+        let object = json!({
+            "version": env!("CARGO_PKG_VERSION"),
+            "path": arguments.path,
+            "agree": missing.is_empty() && agree(&findings),
+            "findings": findings,
+            "missing": missing.iter().map(|missing| missing.engine).collect::<Vec<_>>(),
+        });
+        print(&format!("{object:#}\n"))?;
+    } else if !arguments.quiet {
+        print(&table(&findings))?;
+    }
+    Ok(exit_code(&findings, !missing.is_empty()))
+}
+
+fn say(arguments: &CrosscheckArguments, lines: &[String], head: &str) {
+    if !arguments.quiet {
+        let text: String = lines.iter().map(|line| format!("{head}{line}\n")).collect();
+        // If stderr is closed there is nobody to warn.
+        let _ = io::stderr().write_all(text.as_bytes());
+    }
+}
+
+/// The engines to ask, and those that are not there.
+#[derive(Default)]
+struct Engines {
+    found: Vec<Box<dyn Engine>>,
+    missing: Vec<EngineMissing>,
+}
+
+/// Looks for the engines; an error if there is none at all.
+fn find_engines(arguments: &CrosscheckArguments) -> Result<Engines, CliError> {
+    let Engines { mut found, mut missing } = Engines::default();
+    if arguments.with != With::Storm {
+        match Prism::find(arguments.prism.as_deref()) {
+            Ok(prism) => found.push(Box::new(prism)),
+            Err(error) => missing.push(error),
+        }
+    }
+    if arguments.with != With::Prism {
+        match Storm::find(arguments.python.as_deref()) {
+            Ok(storm) => found.push(Box::new(storm)),
+            Err(error) => missing.push(error),
+        }
+    }
+    // A path that was given is not passed over.
+    let given = |engine| match engine {
+        "PRISM" => arguments.prism.is_some(),
+        _ => arguments.python.is_some(),
+    };
+    if found.is_empty() || missing.iter().any(|missing| given(missing.engine)) {
+        let texts: Vec<_> = missing.iter().map(ToString::to_string).collect();
+        return Err(CliError::Input(texts.join("\nerror: ")));
+    }
+    Ok(Engines { found, missing })
+}
+
+/// The `.tra` file of a model that PRISM can read as it is.
+///
+/// Those of a run have no lower bounds of 0, whatever its native model has.
+fn explicit_files(path: &Path, has_zeros: bool) -> Option<PathBuf> {
+    let (tra, native) = if path.is_dir() {
+        (path.join("model.tra"), path.join(NATIVE_MODEL).exists())
+    } else {
+        (path.to_path_buf(), false)
+    };
+    let complete = ["tra", "sta", "lab"].iter().all(|extension| tra.with_extension(extension).exists());
+    (complete && tra.extension().is_some_and(|extension| extension == "tra") && (native || !has_zeros))
+        .then_some(tra)
+}
+
+fn agree(findings: &[Finding]) -> bool {
+    findings.iter().all(|finding| finding.agreement == Agreement::Agrees)
+}
+
+fn exit_code(findings: &[Finding], missing: bool) -> ExitCode {
+    if findings.iter().any(|finding| finding.agreement == Agreement::Disagrees) {
+        ExitCode::from(1)
+    } else if missing || !agree(findings) {
+        ExitCode::from(3)
+    } else {
+        ExitCode::SUCCESS
+    }
+}

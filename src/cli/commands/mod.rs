@@ -1,0 +1,12 @@
+//! One file for every subcommand.
+
+pub mod check;
+pub mod compile;
+pub mod controller;
+pub mod convert;
+pub mod crosscheck;
+pub mod diff;
+pub mod report;
+pub mod simulate;
+pub mod solve;
+pub mod verify;

@@ -1,0 +1,105 @@
+//! `dynabs-check report`: a run as one page.
+
+use crate::exports::replace;
+use crate::run_source::{Refined, refine};
+use crate::{Bars, CliError, print};
+use clap::Args;
+use dynabs::report::{CrossCheckError, CrossChecks, Material, MaterialOptions, page, pictures};
+use imdp::solver::{AnswerError, SolverOptions};
+use std::fs;
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+/// What to report, and where.
+#[derive(Clone, Debug, Args)]
+pub struct ReportArguments {
+    /// A directory written by dynabs-compile; a crosscheck.json in it (what crosscheck --json prints) is shown as well.
+    directory: PathBuf,
+
+    /// The page to write.
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+
+    /// Write every plot to this directory as well, as SVG.
+    #[arg(long, value_name = "DIR")]
+    svg: Option<PathBuf>,
+
+    /// The number of simulated runs.
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u64).range(..=1_000_000_000))]
+    runs: u64,
+
+    /// How many of them are drawn.
+    #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u64).range(..=1000))]
+    keep: u64,
+
+    /// The seed of the simulation.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+
+    /// Leave out how long things took: the same bytes every time.
+    #[arg(long)]
+    no_times: bool,
+
+    /// Print nothing but errors.
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+impl From<CrossCheckError> for CliError {
+    fn from(error: CrossCheckError) -> Self {
+        match error {
+            CrossCheckError::Io { .. } => Self::Failure(error.to_string()),
+            CrossCheckError::Malformed { .. } => Self::Input(error.to_string()),
+        }
+    }
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// [`CliError`], which knows its exit code.
+pub fn run(arguments: &ReportArguments) -> Result<ExitCode, CliError> {
+    let bars = Arc::new(Bars::new(arguments.quiet));
+    let start = Instant::now();
+    let Refined { run, answer, controller } = refine(&arguments.directory, &bars)?;
+    let mut times = vec![("opening and solving", start.elapsed())];
+    if arguments.no_times {
+        times.clear();
+    }
+    let cross_checks = CrossChecks::read(&arguments.directory)?;
+    let options = MaterialOptions {
+        seed: arguments.seed,
+        runs: arguments.runs,
+        drawn: arguments.keep,
+        times,
+        cross_checks,
+    };
+    let solver = SolverOptions { interrupt: Some(bars.interrupt()), ..SolverOptions::default() };
+    let failure = |error: AnswerError| CliError::Failure(error.to_string());
+    let material = Material::new(&run, &answer, &controller, options, &solver, &*bars);
+    let material = material.map_err(failure)?;
+    if bars.interrupt().load(Ordering::Relaxed) {
+        return Err(CliError::Interrupted);
+    }
+    let page = page(&material).map_err(|error| CliError::Failure(error.to_string()))?;
+    let mut written = vec![arguments.output.clone()];
+    if let Some(directory) = &arguments.svg {
+        let shown = directory.display();
+        fs::create_dir_all(directory).map_err(|error| CliError::Failure(format!("{shown}: {error}")))?;
+        for picture in pictures(&material) {
+            let path = directory.join(format!("{}.svg", picture.name));
+            replace(&path, |out| out.write_all(picture.svg.as_bytes()))?;
+            written.push(path);
+        }
+    }
+    replace(&arguments.output, |out| out.write_all(page.as_bytes()))?;
+    if !arguments.quiet {
+        let lines = written.iter().map(|path| format!("wrote {}\n", path.display()));
+        print(&lines.collect::<String>())?;
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,128 @@
+//! `dynabs-check simulate`: the closed loop against its promise.
+
+use crate::exports::replace;
+use crate::run_source::{Refined, refine};
+use crate::simulation_noise::{NoiseArguments, noise};
+use crate::simulation_report::{Report, Simulated};
+use crate::trajectories::write_trajectories;
+use crate::{Bars, CliError, print};
+use clap::Args;
+use dynabs::controller::Simulation;
+use dynabs::partition::CellLookup;
+use dynabs::run::Run;
+use imdp::progress::Progress;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What to simulate.
+#[derive(Clone, Debug, Args)]
+pub struct SimulateArguments {
+    /// A directory written by dynabs-compile.
+    directory: PathBuf,
+
+    /// The number of runs.
+    #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    runs: u64,
+
+    /// Where runs start, as --from=-20,0; the default is the model's initial state.
+    #[arg(long, value_name = "X1,X2,...", allow_hyphen_values = true)]
+    from: Option<String>,
+
+    #[command(flatten)]
+    noise: NoiseArguments,
+
+    /// The seed: every run has a random stream of its own.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+
+    /// The confidence of the Clopper-Pearson interval.
+    #[arg(long, value_name = "P", default_value_t = 0.99, value_parser = probability)]
+    confidence: f64,
+
+    /// Give runs of unbounded tasks up after this many (grouped) steps.
+    #[arg(long, value_name = "N", default_value_t = 10_000)]
+    most_steps: u64,
+
+    /// Write trajectories to this CSV file.
+    #[arg(long, value_name = "FILE")]
+    trajectories: Option<PathBuf>,
+
+    /// How many trajectories to write: those of the first runs.
+    #[arg(long, value_name = "N", default_value_t = 100, requires = "trajectories")]
+    keep: u64,
+
+    /// Print one JSON object instead of the summary.
+    #[arg(long)]
+    json: bool,
+
+    /// Print nothing but errors and warnings (and the object of --json).
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+fn probability(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|p| (0.5..1.0).contains(p));
+    number.ok_or_else(|| "expected a number from 0.5 up to, but not including, 1".to_owned())
+}
+
+/// Runs the subcommand: exit code 0 if nothing is wrong, 1 if the simulation contradicts the promise, 3 if it was
+/// interrupted, 4 if an input left `U`.
+///
+/// # Errors
+/// [`CliError`], which knows its exit code.
+pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, CliError> {
+    let bars = Arc::new(Bars::new(arguments.quiet));
+    let Refined { run, controller, .. } = refine(&arguments.directory, &bars)?;
+    let start = start(arguments, &run)?;
+    let noise = noise(&arguments.noise, &run)?;
+    let simulation = Simulation::new(&run.problem, &controller, noise.noise.clone(), arguments.most_steps);
+    let clock = Instant::now();
+    let tally = simulation.tally(&start, arguments.seed, arguments.runs, &*bars);
+    let seconds = clock.elapsed().as_secs_f64();
+    if bars.is_interrupted() {
+        return Err(CliError::Interrupted);
+    }
+    if let Some(path) = &arguments.trajectories {
+        let kept = arguments.keep.min(arguments.runs);
+        let trajectories = (0..kept).map(|run| simulation.trajectory(&start, arguments.seed, run));
+        replace(path, |out| write_trajectories(&run.problem, trajectories, out))?;
+    }
+    let SimulateArguments { seed, confidence, .. } = *arguments;
+    let report =
+        Report::new(&run, &controller, noise, Simulated { from: start, seed, confidence, tally, seconds });
+    if arguments.json {
+        print(&report.json()?)?;
+    } else if !arguments.quiet {
+        print(&report.text())?;
+    }
+    report.warn();
+    report.outcome()
+}
+
+/// The state that runs start in.
+fn start(arguments: &SimulateArguments, run: &Run) -> Result<Vec<f64>, CliError> {
+    let n = run.problem.grid.dimension();
+    let Some(text) = &arguments.from else {
+        return run.problem.initial_state.clone().ok_or_else(|| {
+            let example = vec!["0"; n].join(",");
+            CliError::Input(format!(
+                "--from: found nothing, and the model has no initial state; expected {n} numbers such as --from={example}"
+            ))
+        });
+    };
+    let numbers: Option<Vec<f64>> =
+        text.split(',').map(|x| x.trim().parse().ok().filter(|x: &f64| x.is_finite())).collect();
+    let Some(x) = numbers.filter(|x| x.len() == n) else {
+        return Err(CliError::Input(format!(
+            "--from: found \"{text}\"; expected {n} numbers separated by commas, one per dimension of the state"
+        )));
+    };
+    if CellLookup::new(&run.problem.grid).locate(&x).is_none() {
+        return Err(CliError::Input(format!(
+            "--from: found \"{text}\", outside the partition; expected a state in it, for which something is promised"
+        )));
+    }
+    Ok(x)
+}

@@ -1,0 +1,236 @@
+//! `dynabs-check solve`: properties of a model.
+
+use crate::exports::{write_certificate, write_policy, write_values};
+use crate::model_source::load;
+use crate::results::{PropertyResult, exit_code, table};
+use crate::{Bars, CliError, print};
+use clap::Args;
+use imdp::model::IntervalMdp;
+use imdp::progress::Progress;
+use imdp::property::{Property, parse_properties, parse_property};
+use imdp::solver::{Answer, SolverOptions};
+use serde_json::{Value, json};
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// What to solve and how.
+#[derive(Clone, Debug, Args)]
+pub struct SolveArguments {
+    /// A directory written by dynabs-compile, a .tra file with .sta and .lab beside it, or a .drn, .umb or .dynabs file.
+    path: PathBuf,
+
+    /// A property in PRISM's syntax, or a .props file; repeatable. Default: the .props file of the model.
+    #[arg(short, long = "property", value_name = "PROPERTY")]
+    properties: Vec<String>,
+
+    /// Read model.tra of a directory instead of its native file.
+    #[arg(long)]
+    explicit: bool,
+
+    /// Write the lower bound of every state, or true/false, one per line (for one property).
+    #[arg(long, value_name = "FILE")]
+    values: Option<PathBuf>,
+
+    /// Write the policy as `state=action` or `state,step=action` (for one property).
+    #[arg(long, value_name = "FILE")]
+    policy: Option<PathBuf>,
+
+    /// Write what is needed to check the result again with `verify` (for one property).
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
+
+    #[command(flatten)]
+    limits: LimitArguments,
+
+    /// Print one JSON object instead of the table.
+    #[arg(long)]
+    json: bool,
+
+    /// Print nothing but errors (and the object of --json).
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// When to stop.
+#[derive(Clone, Debug, Args)]
+pub struct LimitArguments {
+    /// Unbounded properties: stop when the bounds are this close, absolutely.
+    #[arg(long, value_name = "E", default_value_t = 1e-6, value_parser = positive)]
+    epsilon: f64,
+
+    /// Stop after this many iterations.
+    #[arg(long, value_name = "N")]
+    max_iterations: Option<u64>,
+
+    /// Stop each property after this many seconds.
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    time_limit: Option<f64>,
+}
+
+pub(super) fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|x| x.is_finite() && *x > 0.0);
+    number.ok_or_else(|| "expected a positive number".to_owned())
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// [`CliError`], which knows its exit code.
+pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
+    let bars = Arc::new(Bars::new(arguments.quiet));
+    let start = Instant::now();
+    let loaded = load(&arguments.path, arguments.explicit, &bars)?;
+    let reading = start.elapsed();
+    let properties = properties(&arguments.properties, &loaded.properties)?;
+    let outputs = [&arguments.values, &arguments.policy, &arguments.certificate];
+    if outputs.into_iter().any(Option::is_some) && properties.len() != 1 {
+        let found = properties.len();
+        return Err(CliError::Input(format!(
+            "--values, --policy, --certificate: found {found} properties; expected one, chosen by -p"
+        )));
+    }
+    if !arguments.quiet {
+        let warnings: String =
+            loaded.warnings.iter().map(|warning| format!("warning: {warning}\n")).collect();
+        // If stderr is closed there is nobody to warn.
+        let _ = io::stderr().write_all(warnings.as_bytes());
+    }
+    let wanted = Wanted { policy: arguments.policy.is_some(), evidence: arguments.certificate.is_some() };
+    let mut results = Vec::with_capacity(properties.len());
+    bars.catch_interrupts()?;
+    for property in &properties {
+        let (mut answer, result) = answer(&loaded.model, property, &arguments.limits, wanted, &bars)?;
+        if let Some(path) = &arguments.values {
+            write_values(path, &loaded.model, &answer)?;
+        }
+        if let (Some(path), Some(policy)) = (&arguments.policy, &answer.solution.policy) {
+            write_policy(path, &loaded.model, policy)?;
+        }
+        if let Some(path) = &arguments.certificate {
+            let certificate = answer.certificate(property, loaded.digests()?);
+            certificate.map_or(Ok(()), |certificate| write_certificate(path, &certificate))?;
+        }
+        results.push(result);
+    }
+    if arguments.json {
+        print(&format!("{:#}\n", report(&loaded.model, &results, &loaded.warnings, reading)))?;
+    } else if !arguments.quiet {
+        print(&table(&results))?;
+        let _ =
+            writeln!(io::stderr(), "times: reading {reading:.1?}, solving {:.1?}", start.elapsed() - reading);
+    }
+    Ok(exit_code(&results))
+}
+
+/// What is wanted of an answer besides the values.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Wanted {
+    pub(super) policy: bool,
+    pub(super) evidence: bool,
+}
+
+/// Answers one property, with the current gap on display.
+pub(super) fn answer(
+    model: &IntervalMdp,
+    property: &Property,
+    limits: &LimitArguments,
+    wanted: Wanted,
+    bars: &Bars,
+) -> Result<(Answer, PropertyResult), CliError> {
+    let start = Instant::now();
+    let answer = limits.with_options(bars, |options| {
+        Answer::new(
+            model,
+            property,
+            &SolverOptions { policy: wanted.policy, evidence: wanted.evidence, ..*options },
+        )
+    });
+    let answer = answer.map_err(|error| CliError::Input(format!("{property}: {error}")))?;
+    let result = PropertyResult::new(property, &answer, start.elapsed());
+    Ok((answer, result))
+}
+
+impl LimitArguments {
+    /// No limits, and bounds this close.
+    pub(super) fn of_epsilon(epsilon: f64) -> Self {
+        Self { epsilon, ..Self::default() }
+    }
+
+    /// Computes something within these limits, with the current gap on display.
+    pub(super) fn with_options<T>(&self, bars: &Bars, compute: impl FnOnce(&SolverOptions<'_>) -> T) -> T {
+        let progress =
+            |iteration, gap: f64| bars.note(|| format!("iteration {iteration}, bounds {gap:.1e} apart"));
+        let result = compute(&SolverOptions {
+            epsilon: self.epsilon,
+            max_iterations: self.max_iterations.unwrap_or(u64::MAX),
+            time_limit: self.time_limit.map(Duration::from_secs_f64),
+            interrupt: Some(bars.interrupt()),
+            progress: Some(&progress),
+            policy: false,
+            evidence: false,
+        });
+        bars.finish();
+        result
+    }
+}
+
+impl Default for LimitArguments {
+    fn default() -> Self {
+        Self { epsilon: SolverOptions::default().epsilon, max_iterations: None, time_limit: None }
+    }
+}
+
+/// The properties given by `-p`, or those of the file beside the model.
+pub(super) fn properties(given: &[String], beside: &Path) -> Result<Vec<Property>, CliError> {
+    if given.is_empty() {
+        if !beside.exists() {
+            return Err(CliError::Input(format!(
+                "{}: found no such file; expected properties there or with -p, for example -p 'Pmaxmin=? [ F \"goal\" ]'",
+                beside.display()
+            )));
+        }
+        return read_properties(beside);
+    }
+    let mut properties = Vec::new();
+    for text in given {
+        if Path::new(text).extension().is_some_and(|extension| extension == "props") {
+            properties.extend(read_properties(Path::new(text))?);
+        } else {
+            properties.push(parse_property(text).map_err(|error| CliError::Input(format!("-p: {error}")))?);
+        }
+    }
+    Ok(properties)
+}
+
+fn read_properties(path: &Path) -> Result<Vec<Property>, CliError> {
+    let shown = path.display();
+    let text = fs::read_to_string(path).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::InvalidData => {
+            CliError::Input(format!("{shown}: {error}; expected a file of properties"))
+        }
+        _ => CliError::Failure(format!("{shown}: {error}")),
+    })?;
+    let properties = parse_properties(&text).map_err(|error| CliError::Input(format!("{shown}: {error}")))?;
+    if properties.is_empty() {
+        return Err(CliError::Input(format!("{shown}: found no property; expected at least one")));
+    }
+    Ok(properties)
+}
+
+fn report(model: &IntervalMdp, results: &[PropertyResult], warnings: &[String], reading: Duration) -> Value {
+    let size = model.size();
+    json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "states": size.states,
+        "choices": size.choices,
+        "transitions": size.transitions,
+        "rows": size.rows,
+        "results": results,
+        "warnings": warnings,
+        "seconds": {"reading": reading.as_secs_f64()},
+    })
+}

@@ -1,0 +1,109 @@
+//! `dynabs-check verify`: certificates, checked in exact arithmetic.
+
+use crate::model_source::load;
+use crate::{Bars, CliError, print, thousands};
+use clap::Args;
+use imdp::certificate::{Certificate, CertificateError, read_file};
+use imdp::property::Verdict;
+use imdp::verify::{Proved, Rejection, check};
+use serde_json::json;
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+/// What to check against what.
+#[derive(Clone, Debug, Args)]
+pub struct VerifyArguments {
+    /// A certificate written by `solve --certificate`.
+    certificate: PathBuf,
+
+    /// The model that was solved: the directory or the .tra file.
+    path: PathBuf,
+
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+
+    /// Print nothing but errors (and the object of --json).
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// [`CliError`], which knows its exit code; a rejection is none.
+pub fn run(arguments: &VerifyArguments) -> Result<ExitCode, CliError> {
+    let bars = Bars::new(arguments.quiet);
+    let start = Instant::now();
+    let shown = arguments.certificate.display();
+    let certificate = read_file(&arguments.certificate).map_err(|error| match error {
+        CertificateError::Io(ref io) if io.kind() != io::ErrorKind::NotFound => {
+            CliError::Failure(format!("{shown}: {error}"))
+        }
+        _ => CliError::Input(format!("{shown}: {error}")),
+    })?;
+    let explicit = certificate.files.iter().any(|file| file.kind == "tra");
+    let loaded = load(&arguments.path, explicit, &bars)?;
+    let digests = loaded.digests()?;
+    let outcome = check(&certificate, &loaded.model, &digests);
+    if let Err(Rejection::Memory(error)) = outcome {
+        return Err(CliError::Input(error.to_string()));
+    }
+    if arguments.json {
+        print(&format!("{:#}\n", report(&certificate, &outcome, start.elapsed())))?;
+    } else if !arguments.quiet {
+        print(&summary(&certificate, &outcome, start.elapsed()))?;
+    }
+    Ok(if outcome.is_ok() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
+
+fn summary(certificate: &Certificate, outcome: &Result<Proved, Rejection>, time: Duration) -> String {
+    let property = &certificate.property;
+    match outcome {
+        Err(rejection) => format!("{property}\n  rejected   {rejection}\n"),
+        Ok(proved) => format!(
+            "{property}\n  accepted   {}value in [{:?}, {:?}] at the initial state   {} states, steps: {}, rows: {}, \
+             {time:.1?}\n",
+            proved.verdict.map_or_else(String::new, |verdict| format!("{}   ", word(verdict))),
+            proved.lower,
+            proved.upper,
+            thousands(proved.states),
+            thousands(proved.steps),
+            thousands(proved.rows),
+        ),
+    }
+}
+
+fn report(
+    certificate: &Certificate,
+    outcome: &Result<Proved, Rejection>,
+    time: Duration,
+) -> serde_json::Value {
+    let property = certificate.property.to_string();
+    match outcome {
+        Err(rejection) => {
+            json!({"property": property, "accepted": false, "reason": rejection.to_string()})
+        }
+        Ok(proved) => json!({
+            "property": property,
+            "accepted": true,
+            "lower": proved.lower,
+            "upper": proved.upper,
+            "verdict": proved.verdict.map(word),
+            "states": proved.states,
+            "steps": proved.steps,
+            "rows": proved.rows,
+            "seconds": time.as_secs_f64(),
+        }),
+    }
+}
+
+fn word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Holds => "true",
+        Verdict::Fails => "false",
+        Verdict::Unknown => "undecided",
+    }
+}

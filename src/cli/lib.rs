@@ -1,0 +1,26 @@
+//! What the command-line tools share: errors with exit codes, progress bars, tables.
+
+mod choices;
+pub mod commands;
+mod crosscheck_table;
+mod error;
+mod exports;
+mod model_source;
+mod output;
+mod progress;
+mod results;
+mod run_source;
+mod simulation_noise;
+mod simulation_report;
+mod staged_files;
+mod summary;
+mod threads;
+mod trajectories;
+
+pub use choices::{EncodingName, FormatName};
+pub use error::{CliError, exit_with};
+pub use output::{print, thousands};
+pub use progress::Bars;
+pub use results::PropertyResult;
+use staged_files::StagedFiles;
+pub use threads::use_threads;

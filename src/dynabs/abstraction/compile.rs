@@ -1,0 +1,276 @@
+//! The pipeline from problem to interval MDP.
+
+use super::enabled::EnabledActions;
+use super::landings::Placements;
+use super::outcomes::Outcomes;
+use super::pac::PacRows;
+use super::states::{FAILED, REACHED, StateSpace, labels};
+use super::steering::Steering;
+use super::targets::Targets;
+use super::{AbstractionError, reference};
+use crate::model_file::{Probabilities, Problem};
+use crate::partition::{CellId, CellKind, Grid};
+use crate::statistics::Allocation;
+use crate::system::FeedbackLaw;
+use imdp::model::{
+    ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, ModelKind, Parts, RowRange, Rows, StateId,
+};
+use imdp::progress::Progress;
+use imdp::property::{PathFormula, Property, Resolution, StateFormula, Threshold, ThresholdComparison};
+use imdp::solver::{Answer, SolverOptions};
+use std::time::{Duration, Instant};
+
+/// A control problem as an interval MDP.
+#[derive(Clone, Debug)]
+pub struct Abstraction {
+    /// The model.
+    pub model: IntervalMdp,
+    /// The task as a property of the model.
+    pub property: Property,
+    /// The state that every cell of the partition became.
+    pub state_of_cell: Vec<StateId>,
+    /// The targets, one per row.
+    pub targets: Targets,
+    /// The law that steers to them.
+    pub law: FeedbackLaw,
+    /// What the intervals promise; `None` in `reference` mode, which promises nothing.
+    pub guarantee: Option<Guarantee>,
+    /// How long each phase took.
+    pub phases: Vec<(&'static str, Duration)>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// What the intervals of a model promise, and what it rests on.
+#[derive(Clone, Debug)]
+pub struct Guarantee {
+    /// The probability that some claim fails, at most.
+    pub beta: f64,
+    /// What the budget was spent on.
+    pub budget: Vec<Allocation>,
+    /// The bound on the mass outside the window of cells that a row lists.
+    pub unseen_mass: f64,
+}
+
+/// How long to look for values by which windows are chosen: a better choice is not worth more.
+const SCOUT_ITERATIONS: u64 = 200;
+
+/// Measures the phases of the pipeline.
+struct Clock {
+    start: Instant,
+    phases: Vec<(&'static str, Duration)>,
+}
+
+impl Clock {
+    fn lap(&mut self, phase: &'static str) {
+        let now = Instant::now();
+        self.phases.push((phase, now - self.start));
+        self.start = now;
+    }
+}
+
+/// Abstracts a problem: targets, enabled actions, rows, labels, property.
+///
+/// # Errors
+/// [`AbstractionError`] if nothing is enabled, the samples are too few or the model too large.
+pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction, AbstractionError> {
+    let mut clock = Clock { start: Instant::now(), phases: vec![] };
+    let grid = &problem.grid;
+    let steering = Steering::new(problem)?;
+    clock.lap("law");
+
+    let enabled = steering.enabled(problem, progress)?;
+    clock.lap("enabled actions");
+
+    let is_pac = matches!(problem.probabilities, Probabilities::Pac { .. });
+    let states = state_space(problem);
+    let Steering { targets, law, extent, .. } = steering;
+    let choices = choices(problem, &states, &enabled);
+    let blocked = states.select(|state| is_blocked(problem, &states, &choices, state));
+    let tolerance = is_pac.then(|| law.steering_error(&extent));
+    let placements = Placements::new(&problem.noise.samples, grid, &targets, tolerance);
+    clock.lap("choices");
+
+    let (reached, failed) = outcome_states(problem, &states, is_pac);
+    let property = reach_avoid(problem);
+    let model_of = |rows: Rows| -> Result<IntervalMdp, ImdpError> {
+        IntervalMdp::new(Parts {
+            kind: ModelKind::Imdp,
+            rows,
+            choices: choices.clone(),
+            actions: ActionNames::OfRow,
+            initial: states.initial(problem.initial_cell, &problem.labels),
+            labels: labels(blocked.clone(), reached.clone(), failed.clone()),
+            variables: states.variables(grid),
+        })
+    };
+    let (rows, guarantee) = match &problem.probabilities {
+        Probabilities::Pac { beta, discard } => {
+            let is_lost = |cell| blocked.contains(states.of_cell(cell) as usize);
+            let outcomes = Outcomes::new(&problem.labels, is_lost);
+            let statement = (beta, *discard as usize);
+            let pac = PacRows::new(problem, statement, &targets, placements, &states, &outcomes)?;
+            let rows = pac.rows(progress);
+            clock.lap("rows");
+            let rows = pac.better_rows(&scout(&model_of(rows)?, &property)?, progress);
+            clock.lap("choice of windows");
+            (rows, Some(pac.guarantee()))
+        }
+        Probabilities::Reference { beta_per_interval } => {
+            let rows =
+                reference::build(problem, *beta_per_interval, &targets, placements, &states, progress)?;
+            clock.lap("rows");
+            (rows, None)
+        }
+    };
+    let warnings = warnings(problem, blocked.count_ones(..));
+    let model = model_of(rows)?;
+    clock.lap("model");
+    Ok(Abstraction {
+        model,
+        property,
+        state_of_cell: state_of_cell(grid, &states),
+        targets,
+        law,
+        guarantee,
+        phases: clock.phases,
+        warnings,
+    })
+}
+
+/// What the task is worth from every state, roughly: never above the value.
+fn scout(model: &IntervalMdp, property: &Property) -> Result<Vec<f64>, AbstractionError> {
+    let options =
+        SolverOptions { max_iterations: SCOUT_ITERATIONS, epsilon: 1e-3, ..SolverOptions::default() };
+    Ok(Answer::new(model, property, &options)?.values.lower)
+}
+
+impl Abstraction {
+    /// The abstraction of `problem` whose model was compiled before, `model`.
+    ///
+    /// Samples are not looked at again; the choices of the model are compared with the actions that the law
+    /// allows, so that whatever a policy chooses is safe to apply.
+    ///
+    /// # Errors
+    /// [`AbstractionError::Foreign`] if the model is another problem's.
+    pub fn reopen(
+        problem: &Problem,
+        model: IntervalMdp,
+        guarantee: Option<Guarantee>,
+        progress: &dyn Progress,
+    ) -> Result<Self, AbstractionError> {
+        let mut clock = Clock { start: Instant::now(), phases: vec![] };
+        let steering = Steering::new(problem)?;
+        let states = state_space(problem);
+        let same = model.num_states() == states.len()
+            && model.rows().len() == steering.targets.len()
+            && *model.choices() == choices(problem, &states, &steering.enabled(problem, progress)?);
+        if !same {
+            return Err(AbstractionError::Foreign);
+        }
+        clock.lap("enabled actions");
+        let blocked = states.select(|state| is_blocked(problem, &states, model.choices(), state));
+        Ok(Self {
+            property: reach_avoid(problem),
+            state_of_cell: state_of_cell(&problem.grid, &states),
+            warnings: warnings(problem, blocked.count_ones(..)),
+            model,
+            targets: steering.targets,
+            law: steering.law,
+            guarantee,
+            phases: clock.phases,
+        })
+    }
+}
+
+fn state_space(problem: &Problem) -> StateSpace {
+    match problem.probabilities {
+        Probabilities::Pac { .. } => StateSpace::merged(&problem.labels),
+        Probabilities::Reference { .. } => StateSpace::complete(&problem.grid),
+    }
+}
+
+fn state_of_cell(grid: &Grid, states: &StateSpace) -> Vec<StateId> {
+    (0..grid.num_cells()).map(|cell| states.of_cell(CellId(cell))).collect()
+}
+
+fn choices(problem: &Problem, states: &StateSpace, enabled: &EnabledActions) -> Choices {
+    let mut builder = ChoicesBuilder::with_capacity(states.len());
+    (0..states.heads()).for_each(|_| builder.push_absorbing());
+    let mut counts = enabled.ranges_per_cell.iter();
+    let mut ranges = enabled.ranges.as_slice();
+    for (_, cell) in states.cells() {
+        if problem.labels.kind(cell) != CellKind::Ordinary {
+            // The published tool draws goal and unsafe cells without choices.
+            builder.finish_state();
+            continue;
+        }
+        let (own, rest): (&[RowRange], _) =
+            ranges.split_at(counts.next().copied().unwrap_or_default() as usize);
+        ranges = rest;
+        if own.is_empty() {
+            builder.push_absorbing();
+        } else {
+            own.iter().for_each(|&range| builder.push_range(range));
+            builder.finish_state();
+        }
+    }
+    builder.finish()
+}
+
+/// Whether a state is an ordinary cell with nothing enabled.
+fn is_blocked(problem: &Problem, states: &StateSpace, choices: &Choices, state: StateId) -> bool {
+    choices.is_absorbing(state)
+        && states.cell(state).is_some_and(|cell| problem.labels.kind(cell) == CellKind::Ordinary)
+}
+
+fn outcome_states(
+    problem: &Problem,
+    states: &StateSpace,
+    is_pac: bool,
+) -> (imdp::model::StateSet, imdp::model::StateSet) {
+    let of_kind = |kind, heads: &[StateId]| {
+        states.select(|state| match states.cell(state) {
+            None => heads.contains(&state),
+            Some(cell) => problem.labels.kind(cell) == kind,
+        })
+    };
+    if is_pac {
+        (of_kind(CellKind::Goal, &[REACHED]), of_kind(CellKind::Unsafe, &[FAILED]))
+    } else {
+        (of_kind(CellKind::Goal, &[2]), of_kind(CellKind::Unsafe, &[0, 1]))
+    }
+}
+
+/// `Pmaxmin=? [ !"failed" U<=k "reached" ]`, compared with the threshold if there is one.
+fn reach_avoid(problem: &Problem) -> Property {
+    let path = PathFormula::Until {
+        left: StateFormula::negation(StateFormula::label("failed")),
+        right: StateFormula::label("reached"),
+        steps: problem.horizon,
+    };
+    match &problem.threshold {
+        None => Property::value(Resolution::Pmaxmin, path),
+        Some(probability) => {
+            let comparison = ThresholdComparison::AtLeast;
+            let threshold = Threshold { comparison, probability: probability.clone() };
+            Property::verdict(Resolution::Pmaxmin, path, threshold)
+        }
+    }
+}
+
+fn warnings(problem: &Problem, blocked: usize) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if blocked > 0 {
+        let ordinary = problem.labels.count(CellKind::Ordinary);
+        warnings.push(format!(
+            "in {blocked} of {ordinary} ordinary cells no action is enabled (label \"deadlock\"): their value is 0"
+        ));
+    }
+    if let Some(cell) = problem.initial_cell
+        && problem.labels.kind(cell) == CellKind::Unsafe
+    {
+        warnings.push("/initial_state: the cell of the initial state is unsafe".to_owned());
+    }
+    warnings
+}

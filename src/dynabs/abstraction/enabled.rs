@@ -1,0 +1,220 @@
+//! Which actions are enabled in which cells: a half-space test, scanned in lines.
+
+use super::Targets;
+use crate::partition::{CellId, Grid};
+use crate::system::SteeringConstraint;
+use imdp::model::{RowId, RowRange};
+use imdp::progress::Progress;
+use rayon::prelude::*;
+
+/// The enabled actions of some cells, as ranges of action numbers.
+#[derive(Clone, Debug, Default)]
+pub struct EnabledActions {
+    /// Per cell, how many of `ranges` are its own; cells in the order asked for.
+    pub ranges_per_cell: Vec<u32>,
+    /// The ranges of all cells, one after the other, ascending within a cell.
+    pub ranges: Vec<RowRange>,
+}
+
+/// Cells per parallel task: a few milliseconds of work in two dimensions.
+const CELLS_PER_TASK: usize = 256;
+
+/// The actions enabled in each of `cells`.
+///
+/// Action `a` is enabled in cell `s` iff the feedback law keeps its input in `U` (and `U′`) from every
+/// state of the cell (ECC 2024, eq. (8) and Lemma 1). Each half-space `α·d + γ·x ≤ β` holds on the whole
+/// box with centre `c` and widths `w` iff
+///
+/// `α·d_a ≤ β − γ·c − |γ|·w/2`,
+///
+/// whose right-hand side is one number per cell: the enabled targets are the lattice points of a polytope.
+/// They are found dimension by dimension; the last dimension gives a range directly.
+pub fn enabled_actions(
+    grid: &Grid,
+    cells: &[CellId],
+    targets: &Targets,
+    constraints: &[SteeringConstraint],
+    progress: &dyn Progress,
+) -> EnabledActions {
+    let centers: Vec<Vec<f64>> = grid.axes().iter().map(|axis| axis.centers()).collect();
+    let half_widths: Vec<f64> =
+        grid.axes().iter().map(|axis| 0.5 * imdp::numeric::to_f64_up(axis.width())).collect();
+    let scan = Scan::new(targets, constraints);
+    let parts: Vec<EnabledActions> = cells
+        .par_chunks(CELLS_PER_TASK)
+        .map(|chunk| {
+            let mut found = EnabledActions::default();
+            let mut slack = vec![0.0; constraints.len()];
+            for &cell in chunk {
+                for (slack, constraint) in slack.iter_mut().zip(constraints) {
+                    *slack = constraint.bound;
+                    for (j, gamma) in constraint.state.iter().enumerate() {
+                        let center = centers[j][grid.coordinate(cell, j) as usize];
+                        *slack -= gamma * center + gamma.abs() * half_widths[j];
+                    }
+                }
+                let before = found.ranges.len();
+                scan.run(targets, &slack, &mut found.ranges);
+                found.ranges_per_cell.push((found.ranges.len() - before) as u32);
+            }
+            progress.advance(chunk.len() as u64);
+            found
+        })
+        .collect();
+    let mut all = EnabledActions::default();
+    all.ranges.reserve_exact(parts.iter().map(|part| part.ranges.len()).sum());
+    all.ranges_per_cell.reserve_exact(cells.len());
+    for part in parts {
+        all.ranges_per_cell.extend(part.ranges_per_cell);
+        all.ranges.extend(part.ranges);
+    }
+    all
+}
+
+/// The scan over target points, prepared for one set of constraints.
+struct Scan<'a> {
+    constraints: &'a [SteeringConstraint],
+    /// Per dimension `k` and constraint, the least that dimensions after `k` can contribute to `α·d`.
+    least_after: Vec<Vec<f64>>,
+}
+
+impl<'a> Scan<'a> {
+    fn new(targets: &Targets, constraints: &'a [SteeringConstraint]) -> Self {
+        let Some(axes) = targets.axes() else { return Self { constraints, least_after: vec![] } };
+        let mut least_after = vec![vec![0.0; constraints.len()]; axes.len()];
+        for k in (1..axes.len()).rev() {
+            let ends = [axes[k][0], axes[k][axes[k].len() - 1]];
+            for (i, constraint) in constraints.iter().enumerate() {
+                let [a, b] = ends.map(|x| constraint.target[k] * x);
+                least_after[k - 1][i] = least_after[k][i] + a.min(b);
+            }
+        }
+        Self { constraints, least_after }
+    }
+
+    fn run(&self, targets: &Targets, slack: &[f64], ranges: &mut Vec<RowRange>) {
+        match targets.axes() {
+            Some(axes) => self.lattice(axes, 0, 0, slack, ranges),
+            None => self.list(targets, slack, ranges),
+        }
+    }
+
+    /// Fixes the coordinate of dimension `k`; `slack` is what the earlier dimensions have left.
+    fn lattice(&self, axes: &[Vec<f64>], k: usize, base: RowId, slack: &[f64], ranges: &mut Vec<RowRange>) {
+        let axis = &axes[k];
+        let Some((first, last)) = self.feasible(axis, k, slack) else { return };
+        let base = base * axis.len() as RowId;
+        if k + 1 == axes.len() {
+            push(ranges, base + first as RowId, base + last as RowId);
+            return;
+        }
+        let mut rest = vec![0.0; slack.len()];
+        for (i, &x) in axis.iter().enumerate().take(last + 1).skip(first) {
+            for ((rest, slack), constraint) in rest.iter_mut().zip(slack).zip(self.constraints) {
+                *rest = slack - constraint.target[k] * x;
+            }
+            self.lattice(axes, k + 1, base + i as RowId, &rest, ranges);
+        }
+    }
+
+    /// The indices along dimension `k` that no constraint rules out yet, as an inclusive range.
+    fn feasible(&self, axis: &[f64], k: usize, slack: &[f64]) -> Option<(usize, usize)> {
+        let (mut first, mut last) = (0usize, axis.len() - 1);
+        let spacing = if axis.len() > 1 { (axis[last] - axis[0]) / last as f64 } else { 1.0 };
+        for (i, constraint) in self.constraints.iter().enumerate() {
+            let alpha = constraint.target[k];
+            let room = slack[i] - self.least_after[k][i];
+            // Monotone in x even in floating point, so the feasible indices are a range.
+            let fits = |index: usize| alpha * axis[index] <= room;
+            if alpha == 0.0 {
+                if room < 0.0 {
+                    return None;
+                }
+                continue;
+            }
+            let guess = ((room / alpha - axis[0]) / spacing).clamp(first as f64, last as f64) as usize;
+            if alpha > 0.0 {
+                let mut end = guess;
+                while end < last && fits(end + 1) {
+                    end += 1;
+                }
+                while !fits(end) {
+                    if end == first {
+                        return None;
+                    }
+                    end -= 1;
+                }
+                last = end;
+            } else {
+                let mut start = guess;
+                while start > first && fits(start - 1) {
+                    start -= 1;
+                }
+                while !fits(start) {
+                    if start == last {
+                        return None;
+                    }
+                    start += 1;
+                }
+                first = start;
+            }
+        }
+        Some((first, last))
+    }
+
+    fn list(&self, targets: &Targets, slack: &[f64], ranges: &mut Vec<RowRange>) {
+        let mut point = vec![0.0; targets.dimension()];
+        for target in 0..targets.len() {
+            targets.point(target, &mut point);
+            let enabled = self.constraints.iter().zip(slack).all(|(constraint, &slack)| {
+                constraint.target.iter().zip(&point).fold(slack, |rest, (alpha, x)| rest - alpha * x) >= 0.0
+            });
+            if enabled {
+                push(ranges, target as RowId, target as RowId);
+            }
+        }
+    }
+}
+
+/// Adds a range. Ranges of one cell that continue each other are merged when choices are built.
+fn push(ranges: &mut Vec<RowRange>, first: RowId, last: RowId) {
+    ranges.push(RowRange { first, last });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model_file::TargetPoints;
+    use imdp::numeric::from_decimal;
+    use proptest::prelude::*;
+
+    fn grid(cells: &[u32]) -> Grid {
+        let lower = vec![from_decimal(-1.0).unwrap(); cells.len()];
+        let upper = vec![from_decimal(1.0).unwrap(); cells.len()];
+        Grid::new(&lower, &upper, cells).unwrap()
+    }
+
+    proptest! {
+        /// The scan finds what testing every target one by one finds.
+        #[test]
+        fn scan_agrees_with_the_plain_test(
+            coefficients in prop::collection::vec((prop::array::uniform3(-2.0f64..2.0), -1.0f64..3.0), 1..6),
+            cell in 0u32..60,
+        ) {
+            let grid = grid(&[3, 4, 5]);
+            let constraints: Vec<_> = coefficients.iter().map(|(alpha, bound)| SteeringConstraint {
+                target: alpha.to_vec(), state: vec![0.3, -0.2, 0.1], bound: *bound,
+            }).collect();
+            let targets = Targets::new(&TargetPoints::Centers, &grid);
+            let found = enabled_actions(&grid, &[CellId(cell)], &targets, &constraints, &());
+            let found: Vec<_> = found.ranges.iter().flat_map(|r| r.rows()).collect();
+            let list = (0..60).map(|t| {
+                grid.axes().iter().zip(grid.coordinates(CellId(t))).map(|(axis, i)| axis.center(i)).collect()
+            });
+            let listed = Targets::new(&TargetPoints::List(list.collect()), &grid);
+            let expected = enabled_actions(&grid, &[CellId(cell)], &listed, &constraints, &());
+            let expected: Vec<_> = expected.ranges.iter().flat_map(|r| r.rows()).collect();
+            prop_assert_eq!(found, expected);
+        }
+    }
+}

@@ -1,0 +1,217 @@
+//! Where samples land: how often each cell, counted from the target's cell, is hit.
+
+use super::outcomes::{Outcome, Outcomes};
+use super::placement::Placement;
+use crate::noise::NoiseSamples;
+use crate::partition::{CellId, Grid};
+use std::collections::BTreeMap;
+
+/// The cells in which one sample may lie: a box of cell coordinates, one cell unless it is near a face.
+///
+/// Coordinates count from an origin cell: the target's, or the first cell of the grid.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Spread {
+    /// The least coordinates.
+    pub lower: Vec<i32>,
+    /// The greatest coordinates.
+    pub upper: Vec<i32>,
+}
+
+/// How many samples lie for certain, and how many possibly, in a set.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Count {
+    /// Samples that are in the set whatever the rounding.
+    pub certain: u32,
+    /// Samples that may be in the set.
+    pub possible: u32,
+}
+
+/// The samples of `d + η` by the cells in which they land, relative to an origin cell.
+#[derive(Clone, Debug)]
+pub struct Landing {
+    /// Distinct spreads with their numbers of samples, ascending.
+    groups: Vec<(Spread, u32)>,
+    /// The cells that `counts` is about: all that some sample may lie in, and more if asked for.
+    table: Spread,
+    /// The counts of every cell of the table, row-major.
+    counts: Vec<Count>,
+}
+
+/// The counts of the task's regions for one action.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RegionCounts {
+    /// In goal cells.
+    pub goal: Count,
+    /// In lost cells or outside the partition.
+    pub lost: Count,
+}
+
+impl Landing {
+    /// Where the samples land; the table of counts includes the cells of `cover`.
+    pub fn new(samples: &NoiseSamples, placement: &Placement, cover: Option<&Spread>) -> Self {
+        let mut groups: BTreeMap<Spread, u32> = BTreeMap::new();
+        for sample in samples.iter() {
+            *groups.entry(placement.spread(sample)).or_default() += 1;
+        }
+        let groups: Vec<_> = groups.into_iter().collect();
+        let first = cover.or(groups.first().map(|(spread, _)| spread));
+        let mut table = first.cloned().unwrap_or(Spread { lower: vec![], upper: vec![] });
+        groups.iter().for_each(|(spread, _)| table.include(spread));
+        let mut counts = vec![Count::default(); table.volume()];
+        for (spread, number) in &groups {
+            let certain = if spread.is_single() { *number } else { 0 };
+            spread.for_each(|cell| {
+                let count = &mut counts[table.position(cell)];
+                count.certain += certain;
+                count.possible += number;
+            });
+        }
+        Self { groups, table, counts }
+    }
+
+    /// The cells that have counts: a box with all samples.
+    pub fn table(&self) -> &Spread {
+        &self.table
+    }
+
+    /// The counts of the cells of the table, row-major.
+    pub fn counts(&self) -> &[Count] {
+        &self.counts
+    }
+
+    /// Distinct spreads with their numbers of samples, ascending.
+    pub fn groups(&self) -> &[(Spread, u32)] {
+        &self.groups
+    }
+
+    /// How many samples land in goal cells, and how many in lost cells or outside, with origin `origin`.
+    pub fn region_counts(&self, origin: &[i32], grid: &Grid, outcomes: &Outcomes) -> RegionCounts {
+        let mut counts = RegionCounts::default();
+        for (spread, number) in &self.groups {
+            let (mut goal, mut lost, mut cells) = (0usize, 0usize, 0usize);
+            spread.for_each(|cell| {
+                cells += 1;
+                match locate(cell, origin, grid).map(|cell| outcomes.of(cell)) {
+                    Some(Outcome::Reached) => goal += 1,
+                    Some(Outcome::Open) => {}
+                    Some(Outcome::Lost) | None => lost += 1,
+                }
+            });
+            let add = |count: &mut Count, hits: usize| {
+                count.certain += if hits == cells { *number } else { 0 };
+                count.possible += if hits > 0 { *number } else { 0 };
+            };
+            add(&mut counts.goal, goal);
+            add(&mut counts.lost, lost);
+        }
+        counts
+    }
+}
+
+/// The cell at `coordinates` from `origin`, if it is in the grid.
+pub(super) fn locate(coordinates: &[i32], origin: &[i32], grid: &Grid) -> Option<CellId> {
+    let mut id = 0;
+    for (j, axis) in grid.axes().iter().enumerate() {
+        let index = u32::try_from(coordinates[j] + origin[j]).ok().filter(|&i| i < axis.cells())?;
+        id += index * grid.strides()[j];
+    }
+    Some(CellId(id))
+}
+
+impl Spread {
+    /// The number of cells.
+    pub fn volume(&self) -> usize {
+        self.lower.iter().zip(&self.upper).map(|(l, u)| (u - l) as usize + 1).product()
+    }
+
+    /// Grows to contain `other`.
+    fn include(&mut self, other: &Self) {
+        for j in 0..self.lower.len() {
+            self.lower[j] = self.lower[j].min(other.lower[j]);
+            self.upper[j] = self.upper[j].max(other.upper[j]);
+        }
+    }
+
+    fn is_single(&self) -> bool {
+        self.lower == self.upper
+    }
+
+    /// The row-major position of a cell in this box.
+    pub(super) fn position(&self, cell: &[i32]) -> usize {
+        (0..cell.len()).fold(0, |position, j| {
+            position * ((self.upper[j] - self.lower[j]) as usize + 1) + (cell[j] - self.lower[j]) as usize
+        })
+    }
+
+    /// Visits the cells in row-major order.
+    pub(super) fn for_each(&self, mut visit: impl FnMut(&[i32])) {
+        if self.is_single() {
+            return visit(&self.lower);
+        }
+        let mut cell = self.lower.clone();
+        loop {
+            visit(&cell);
+            let Some(j) = (0..cell.len()).rev().find(|&j| cell[j] < self.upper[j]) else { return };
+            cell[j] += 1;
+            cell[j + 1..].copy_from_slice(&self.lower[j + 1..]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::abstraction::Alignment;
+    use imdp::numeric::{Rational, from_decimal};
+
+    fn line(cells: u32) -> (Grid, Vec<Alignment>) {
+        let exact = |x: f64| vec![from_decimal(x).unwrap()];
+        let grid = Grid::new(&exact(0.0), &exact(f64::from(cells)), &[cells]).unwrap();
+        (grid, vec![Alignment { first_cell: 0, stride: 1, phase: Rational::new(1.into(), 2.into()) }])
+    }
+
+    fn offsets(
+        samples: &NoiseSamples,
+        grid: &Grid,
+        alignment: &[Alignment],
+        tolerance: Option<f64>,
+    ) -> Landing {
+        let tolerance = tolerance.map(|t| [t]);
+        let tolerance = tolerance.as_ref().map(|t| t.as_slice());
+        Landing::new(samples, &Placement::of_offsets(samples, grid, alignment, &[9], tolerance), None)
+    }
+
+    #[test]
+    fn offsets_count_from_the_target() {
+        let (grid, alignment) = line(10);
+        let samples = NoiseSamples::new(1, vec![0.0, 0.4, -0.4, 0.6, -1.4, 99.0]);
+        let landing = offsets(&samples, &grid, &alignment, Some(1e-12));
+        assert_eq!(landing.table(), &Spread { lower: vec![-1], upper: vec![10] });
+        assert_eq!(landing.counts()[0].certain, 1);
+        assert_eq!(landing.counts()[1].certain, 3);
+        assert_eq!(landing.counts()[2].certain, 1);
+    }
+
+    #[test]
+    fn samples_near_a_face_count_on_both_sides() {
+        let (grid, alignment) = line(10);
+        let samples = NoiseSamples::new(1, vec![0.5, 0.5 + 1e-15, 0.1]);
+        let landing = offsets(&samples, &grid, &alignment, Some(1e-14));
+        assert_eq!(landing.counts()[0], Count { certain: 1, possible: 3 });
+        assert_eq!(landing.counts()[1], Count { certain: 0, possible: 2 });
+        // Taken at its word, the face belongs to the upper cell.
+        let landing = offsets(&samples, &grid, &alignment, None);
+        assert_eq!(landing.counts()[1], Count { certain: 2, possible: 2 });
+    }
+
+    #[test]
+    fn points_and_offsets_agree() {
+        let (grid, alignment) = line(10);
+        let samples = NoiseSamples::new(1, vec![0.0, 0.4, -0.4, 0.6, -1.4, 3.3]);
+        let by_offset = offsets(&samples, &grid, &alignment, Some(0.0));
+        let placement = Placement::of_point(&samples, &grid, &[4.5], Some(&[0.0]));
+        let by_point = Landing::new(&samples, &placement, None);
+        assert_eq!(by_offset.counts(), by_point.counts());
+        assert_eq!(by_point.table().lower[0], by_offset.table().lower[0] + 4);
+    }
+}

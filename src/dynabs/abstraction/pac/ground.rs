@@ -1,0 +1,79 @@
+//! Where the noise of each action lands, with the intervals of the cells there.
+
+use super::super::landing::{Count, Landing, Spread};
+use super::super::landings::Landings;
+use super::super::targets::Targets;
+use super::PacRows;
+use super::bounds::{BoundTable, Interval};
+use crate::model_file::Problem;
+use rayon::prelude::*;
+use std::borrow::Cow;
+
+/// Where the noise of one action lands.
+pub(super) struct Ground<'a> {
+    pub(super) landing: Cow<'a, Landing>,
+    pub(super) windows: Cow<'a, [Spread]>,
+    /// The cell that coordinates count from.
+    pub(super) origin: Vec<i32>,
+    /// The intervals of the landing's table.
+    pub(super) intervals: Cow<'a, [Interval]>,
+}
+
+impl<'a> Ground<'a> {
+    pub(super) fn new(rows: &'a PacRows<'_>, target: usize) -> Self {
+        let grid = &rows.problem.grid;
+        let mut origin = vec![0; grid.dimension()];
+        let (landing, windows) = rows.landings.of(rows.targets, target, grid, &mut origin);
+        let intervals = match &rows.shared {
+            Some(intervals) => Cow::Borrowed(&intervals[..]),
+            None => {
+                let from = rows.landings.target_cell(rows.targets, target, grid);
+                Cow::Owned(intervals(&landing, &from, &rows.cells))
+            }
+        };
+        Self { landing, windows, origin, intervals }
+    }
+}
+
+/// The events of cells that occur: counts, and squared distances from the target's cell.
+pub(super) fn cell_events(
+    landings: &Landings<'_>,
+    targets: &Targets,
+    problem: &Problem,
+) -> impl Iterator<Item = (Count, u64)> {
+    let grid = &problem.grid;
+    let events = |landing: &Landing, from: &[i32]| {
+        let squares = squared_distances(landing.table(), from);
+        landing.counts().iter().copied().zip(squares).collect::<Vec<_>>()
+    };
+    let all = match landings.shared() {
+        Some(landing) => events(landing, &vec![0; grid.dimension()]),
+        None => (0..targets.len())
+            .into_par_iter()
+            .flat_map_iter(|target| {
+                let (landing, _) = landings.of(targets, target, grid, &mut vec![0; grid.dimension()]);
+                let mut events = events(&landing, &landings.target_cell(targets, target, grid));
+                events.sort_unstable();
+                events.dedup();
+                events
+            })
+            .collect(),
+    };
+    all.into_iter()
+}
+
+/// The intervals of all cells of a landing's table.
+pub(super) fn intervals(landing: &Landing, from: &[i32], cells: &BoundTable<u64>) -> Vec<Interval> {
+    let squares = squared_distances(landing.table(), from);
+    landing.counts().iter().zip(squares).map(|(&count, square)| cells.get(count, square)).collect()
+}
+
+/// The squared distances, in cells, of all cells of a table from one of them.
+fn squared_distances(table: &Spread, from: &[i32]) -> Vec<u64> {
+    let mut squares = Vec::with_capacity(table.volume());
+    table.for_each(|cell| {
+        let along = |(&a, &b): (&i32, &i32)| (i64::from(a) - i64::from(b)).pow(2) as u64;
+        squares.push(cell.iter().zip(from).map(along).sum());
+    });
+    squares
+}

@@ -1,0 +1,106 @@
+//! How noise becomes cells: where `d + δ` lies, counted from an origin cell.
+
+use super::landing::Spread;
+use super::targets::Alignment;
+use crate::noise::NoiseSamples;
+use crate::partition::Grid;
+use imdp::numeric::{UNIT_ROUNDOFF, to_f64};
+
+/// The map from noise to cell coordinates for one target, or for all that sit alike in their cells.
+#[derive(Clone, Debug)]
+pub struct Placement {
+    axes: Vec<AxisPlacement>,
+}
+
+/// One dimension of a [`Placement`].
+#[derive(Clone, Debug)]
+struct AxisPlacement {
+    width: f64,
+    /// The target's position, in cells.
+    shift: f64,
+    lowest: i32,
+    highest: i32,
+    /// `None` takes the arithmetic at its word.
+    tolerance: Option<f64>,
+}
+
+impl Placement {
+    /// Coordinates relative to the cell of `d_a`, for targets that all sit alike in their cells.
+    ///
+    /// With `φ` the target's position in its cell and `w` the width, `δ` moves `⌊δ/w + φ⌋` cells. `tolerance`
+    /// bounds, per dimension, how far the true `d_a + η` can be from its computed value; samples closer to
+    /// a face than that (plus the rounding made here) may be on either side. Coordinates beyond the grid
+    /// from every target are cut off just outside it.
+    pub fn of_offsets(
+        samples: &NoiseSamples,
+        grid: &Grid,
+        alignment: &[Alignment],
+        last_cells: &[u32],
+        tolerance: Option<&[f64]>,
+    ) -> Self {
+        let axis = |j: usize| AxisPlacement {
+            width: to_f64(grid.axes()[j].width()),
+            shift: to_f64(&alignment[j].phase),
+            lowest: -(last_cells[j] as i32) - 1,
+            highest: grid.axes()[j].cells() as i32 - alignment[j].first_cell as i32,
+            tolerance: tolerance.map(|t| t[j] + samples.rounding()[j]),
+        };
+        Self { axes: (0..grid.dimension()).map(axis).collect() }
+    }
+
+    /// Coordinates in the grid, for one target point anywhere.
+    pub fn of_point(samples: &NoiseSamples, grid: &Grid, point: &[f64], tolerance: Option<&[f64]>) -> Self {
+        let axis = |j: usize| {
+            let width = to_f64(grid.axes()[j].width());
+            let lower = to_f64(grid.axes()[j].lower());
+            let offset = 2.0 * UNIT_ROUNDOFF * (point[j].abs() + lower.abs());
+            AxisPlacement {
+                width,
+                shift: (point[j] - lower) / width,
+                lowest: -1,
+                highest: grid.axes()[j].cells() as i32,
+                tolerance: tolerance.map(|t| t[j] + samples.rounding()[j] + offset),
+            }
+        };
+        Self { axes: (0..grid.dimension()).map(axis).collect() }
+    }
+
+    /// The cells in which noise `δ` may put the state.
+    pub fn spread(&self, noise: &[f64]) -> Spread {
+        let (lower, upper) = noise.iter().zip(&self.axes).map(|(&x, axis)| axis.spread(x)).unzip();
+        Spread { lower, upper }
+    }
+
+    /// The cells that some noise between `lower` and `upper` may put the state in.
+    pub fn spread_of_box(&self, lower: &[f64], upper: &[f64]) -> Spread {
+        Spread { lower: self.spread(lower).lower, upper: self.spread(upper).upper }
+    }
+
+    /// The noise, in dimension `j`, that it takes at least to move to coordinate `o`: 0 if none.
+    ///
+    /// Rounded, and without tolerances: a measure of distance, not a bound.
+    pub fn distance(&self, j: usize, o: i32, from: f64) -> f64 {
+        let axis = &self.axes[j];
+        let face = |i: f64| (i - axis.shift) * axis.width;
+        let (below, above) = (face(f64::from(o)), face(f64::from(o) + 1.0));
+        (below - from).max(from - above).max(0.0)
+    }
+
+    /// The least and the greatest coordinate in dimension `j` that are told apart.
+    pub fn extent(&self, j: usize) -> (i32, i32) {
+        (self.axes[j].lowest, self.axes[j].highest)
+    }
+}
+
+impl AxisPlacement {
+    fn spread(&self, x: f64) -> (i32, i32) {
+        let position = x / self.width + self.shift;
+        let slack = self.tolerance.map_or(0.0, |tolerance| {
+            let rounding = 8.0 * UNIT_ROUNDOFF * ((x / self.width).abs() + self.shift.abs() + 1.0);
+            2.0 * tolerance / self.width + rounding
+        });
+        // Casting saturates, so samples beyond any grid stay beyond it.
+        let index = |position: f64| (position.floor() as i32).clamp(self.lowest, self.highest);
+        (index(position - slack), index(position + slack))
+    }
+}

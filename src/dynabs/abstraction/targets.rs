@@ -1,0 +1,162 @@
+//! The points that actions steer to.
+
+use crate::model_file::TargetPoints;
+use crate::partition::Grid;
+use imdp::numeric::{Rational, to_f64};
+use num_traits::ToPrimitive;
+
+/// The target points `d_a`, numbered from 0; the action of the same number steers there.
+#[derive(Clone, Debug)]
+pub struct Targets {
+    dimension: usize,
+    layout: Layout,
+}
+
+#[derive(Clone, Debug)]
+enum Layout {
+    /// All combinations of coordinates, numbered row-major.
+    Lattice { axes: Vec<Vec<f64>>, alignment: Option<Vec<Alignment>> },
+    /// Any points, one after the other.
+    List(Vec<f64>),
+}
+
+/// How the targets of one dimension sit in the cells of the partition.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Alignment {
+    /// The cell of the first target.
+    pub first_cell: u32,
+    /// How many cells apart neighbouring targets are.
+    pub stride: u32,
+    /// Where in its cell every target sits: 0 at the lower face, ½ at the centre.
+    pub phase: Rational,
+}
+
+impl Targets {
+    /// The targets of a problem on its partition.
+    pub fn new(points: &TargetPoints, partition: &Grid) -> Self {
+        let lattice = |grid: &Grid| Layout::Lattice {
+            axes: grid.axes().iter().map(|axis| axis.centers()).collect(),
+            alignment: align(grid, partition),
+        };
+        let layout = match points {
+            TargetPoints::Centers => lattice(partition),
+            TargetPoints::Grid(grid) => lattice(grid),
+            TargetPoints::List(points) => Layout::List(points.iter().flatten().map(to_f64).collect()),
+        };
+        Self { dimension: partition.dimension(), layout }
+    }
+
+    /// The number of targets.
+    pub fn len(&self) -> usize {
+        match &self.layout {
+            Layout::Lattice { axes, .. } => axes.iter().map(Vec::len).product(),
+            Layout::List(points) => points.len() / self.dimension,
+        }
+    }
+
+    /// Whether there are no targets.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The dimension of the state space.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// The coordinates of the targets per dimension, if all their combinations are targets.
+    pub fn axes(&self) -> Option<&[Vec<f64>]> {
+        match &self.layout {
+            Layout::Lattice { axes, .. } => Some(axes),
+            Layout::List(_) => None,
+        }
+    }
+
+    /// How the targets sit in the partition, if all of them do so in the same way.
+    pub fn alignment(&self) -> Option<&[Alignment]> {
+        match &self.layout {
+            Layout::Lattice { alignment, .. } => alignment.as_deref(),
+            Layout::List(_) => None,
+        }
+    }
+
+    /// Writes the coordinates of a target into `point`.
+    pub fn point(&self, target: usize, point: &mut [f64]) {
+        match &self.layout {
+            Layout::Lattice { axes, .. } => {
+                let mut rest = target;
+                for (x, axis) in point.iter_mut().zip(axes).rev() {
+                    *x = axis[rest % axis.len()];
+                    rest /= axis.len();
+                }
+            }
+            Layout::List(points) => {
+                point.copy_from_slice(&points[target * self.dimension..(target + 1) * self.dimension]);
+            }
+        }
+    }
+
+    /// For aligned targets: the cell coordinates of a target.
+    pub fn cell_coordinates(&self, target: usize, alignment: &[Alignment], cell: &mut [i32]) {
+        let Layout::Lattice { axes, .. } = &self.layout else { return };
+        let mut rest = target;
+        for (j, axis) in axes.iter().enumerate().rev() {
+            let index = (rest % axis.len()) as u32;
+            cell[j] = (alignment[j].first_cell + alignment[j].stride * index) as i32;
+            rest /= axis.len();
+        }
+    }
+
+    /// `max |d_j|` over all targets, per dimension.
+    pub fn magnitudes(&self) -> Vec<f64> {
+        let mut magnitudes = vec![0.0f64; self.dimension];
+        match &self.layout {
+            Layout::Lattice { axes, .. } => {
+                for (magnitude, axis) in magnitudes.iter_mut().zip(axes) {
+                    *magnitude = axis.iter().fold(0.0, |m, x| m.max(x.abs()));
+                }
+            }
+            Layout::List(points) => {
+                for (i, x) in points.iter().enumerate() {
+                    let magnitude = &mut magnitudes[i % self.dimension];
+                    *magnitude = magnitude.max(x.abs());
+                }
+            }
+        }
+        magnitudes
+    }
+}
+
+fn align(grid: &Grid, partition: &Grid) -> Option<Vec<Alignment>> {
+    let lattice = grid.lattice_in(partition)?;
+    lattice
+        .into_iter()
+        .map(|(first, stride)| {
+            let cell = first.floor();
+            let first_cell = cell.to_integer().to_u32()?;
+            Some(Alignment { first_cell, stride, phase: first - cell })
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use imdp::numeric::from_decimal;
+
+    #[test]
+    fn centres_are_aligned() {
+        let exact = |values: &[f64]| values.iter().map(|&x| from_decimal(x).unwrap()).collect::<Vec<_>>();
+        let grid = Grid::new(&exact(&[-1.0, 0.0]), &exact(&[1.0, 3.0]), &[2, 3]).unwrap();
+        let targets = Targets::new(&TargetPoints::Centers, &grid);
+        assert_eq!(targets.len(), 6);
+        let mut point = [0.0; 2];
+        targets.point(4, &mut point);
+        assert_eq!(point, [0.5, 1.5]);
+        let alignment = targets.alignment().unwrap();
+        assert!(alignment.iter().all(|a| a.stride == 1 && a.phase == Rational::new(1.into(), 2.into())));
+        let mut cell = [0; 2];
+        targets.cell_coordinates(4, alignment, &mut cell);
+        assert_eq!(cell, [1, 1]);
+    }
+}

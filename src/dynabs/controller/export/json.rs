@@ -1,0 +1,118 @@
+//! The controller as self-describing JSON.
+
+use super::promise::Promise;
+use crate::controller::Controller;
+use crate::model_file::Problem;
+use crate::partition::{CellId, CellKind};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+/// Writes the controller with everything needed to apply it, and what is promised about it.
+///
+/// # Errors
+/// What writing gives.
+pub fn write_json(controller: &Controller, problem: &Problem, mut out: impl Write) -> io::Result<()> {
+    let promise = Promise::new(problem, controller);
+    let n = controller.state_dimension();
+    let system = &problem.step_system;
+    let law = &controller.law;
+    let of_kind = |kind| -> Vec<u32> {
+        problem.labels.iter().filter(|(_, k)| *k == kind).map(|(cell, _)| cell.0).collect()
+    };
+    let value = json!({
+        "format": "dynabs controller",
+        "format_version": 1,
+        "version": env!("CARGO_PKG_VERSION"),
+        "name": problem.name,
+        "units": "states, inputs and times are in the units of the model file; one step is one step of its dynamics",
+        "promise": {"text": promise.sentences().join(" "), "numbers": promise},
+        "system": {
+            "about": "x+ = A x + B u + q + noise, one step",
+            "A": matrix(&system.a().to_f64()),
+            "B": matrix(&system.b().to_f64()),
+            "q": matrix(&system.q().to_f64().transpose())[0],
+            "input": {
+                "about": "U = {u : G u <= g}, one step",
+                "G": matrix(&problem.step_input.normals().to_f64()),
+                "g": problem.step_input.offsets().iter().map(imdp::numeric::to_f64).collect::<Vec<_>>(),
+            },
+            "stabilizer": problem.stabilizer.as_ref().map(|stabilizer| json!({
+                "about": "u = -K (x - about) + u', on the grouped system; contained in the law below",
+                "K": matrix(&stabilizer.layers.gain().to_f64()),
+                "at": matrix(&stabilizer.layers.about().to_f64().transpose())[0],
+            })),
+        },
+        "law": {
+            "about": "u = c + M d + N x: the inputs of `group_steps` steps, those of the first step first, that \
+                      steer from x to the target d",
+            "group_steps": controller.group_steps(),
+            "inputs_per_step": controller.step_inputs(),
+            "M": table(&law.target_gain, n),
+            "N": table(&law.state_gain, n),
+            "c": law.constant,
+        },
+        "grid": {
+            "about": "cell (i1, i2, ...) is [faces[0][i1], faces[0][i1 + 1]) x ..., its number the sum of i_j * strides[j]",
+            "faces": controller.lookup.faces(),
+            "strides": controller.lookup.strides(),
+        },
+        "cells": {
+            "about": "in goal cells the task is done; in unsafe cells and outside the grid it has failed; cells \
+                      without an action are those that the policy does not list",
+            "goal": of_kind(CellKind::Goal),
+            "unsafe": of_kind(CellKind::Unsafe),
+            "bounds_about": "the guaranteed probability of success from each cell at the start",
+            "bounds": (0..controller.num_cells()).map(|cell| controller.bound(CellId(cell))).collect::<Vec<_>>(),
+        },
+        "policy": policy(controller),
+        "targets": targets(controller),
+    });
+    serde_json::to_writer(&mut out, &value)?;
+    writeln!(out)
+}
+
+/// The actions at the start and what changes from step to step.
+fn policy(controller: &Controller) -> Value {
+    let cells = || (0..controller.num_cells()).map(CellId);
+    let first = |cell: CellId| controller.entries(cell).last().map(|entry| json!([cell.0, entry.target]));
+    let mut changes: BTreeMap<u64, Vec<Value>> = BTreeMap::new();
+    if let Some(horizon) = controller.horizon() {
+        for cell in cells() {
+            let entries = controller.entries(cell);
+            for pair in entries.windows(2) {
+                let step = horizon + 1 - pair[1].steps_left;
+                changes.entry(step).or_default().push(json!([cell.0, pair[0].target]));
+            }
+            // From here on nothing leads to the goal in time.
+            if let Some(entry) = entries.first().filter(|entry| entry.steps_left > 1) {
+                changes.entry(horizon + 1 - entry.steps_left).or_default().push(json!([cell.0, null]));
+            }
+        }
+    }
+    let changes: Vec<Value> =
+        changes.into_iter().map(|(step, cells)| json!({"step": step, "cells": cells})).collect();
+    json!({
+        "about": "pairs [cell, target]; `start` holds at grouped step 0, each change from its step on (target null: \
+                  none any more); without a horizon `start` holds for ever",
+        "horizon": controller.horizon(),
+        "start": cells().filter_map(first).collect::<Vec<_>>(),
+        "changes": changes,
+    })
+}
+
+/// The points of the targets that are used.
+fn targets(controller: &Controller) -> Value {
+    let entries = (0..controller.num_cells()).flat_map(|cell| controller.entries(CellId(cell)));
+    let points: BTreeMap<u32, &[f64]> =
+        entries.map(|entry| (entry.target, controller.target_point(entry.target))).collect();
+    points.into_iter().map(|(target, point)| (target.to_string(), json!(point))).collect()
+}
+
+fn matrix(m: &nalgebra::DMatrix<f64>) -> Vec<Vec<f64>> {
+    m.row_iter().map(|row| row.iter().copied().collect()).collect()
+}
+
+fn table(entries: &[f64], columns: usize) -> Vec<&[f64]> {
+    entries.chunks_exact(columns).collect()
+}

@@ -1,0 +1,20 @@
+//! The refined feedback law `c(x, k)`, and the closed loop that it makes.
+//!
+//! A [`Controller`] is made of a problem, its abstraction and a solved answer, all of which a
+//! [`Run`](crate::run::Run) has. It answers for states ([`Controller::control`]) and for cells
+//! ([`Controller::decide_in`], [`Controller::entries`], [`Controller::bound`]); the mean of the next grouped
+//! state is the target itself ([`Controller::target_point`]) plus the mean of the noise. [`Simulation`] closes
+//! the loop with the original system, [`export`] writes the law as files.
+
+pub mod export;
+mod law;
+mod refined;
+mod schedule;
+mod simulation;
+
+pub use refined::{Controller, ControllerError, Decision};
+pub use schedule::Entry;
+pub use simulation::{
+    End, Frequency, InputCheck, Noise, Plant, RunOutcome, Simulation, Tally, Trajectory, TrajectoryStep,
+    Violation,
+};

@@ -1,0 +1,51 @@
+//! Which target a cell steers to, and when.
+
+use crate::abstraction::Abstraction;
+use crate::partition::CellId;
+use imdp::solver::Policy;
+
+/// A target that holds from some number of steps left upwards, until the next entry of the cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// The least number of grouped steps left for which it holds; 1 in stationary schedules.
+    pub steps_left: u64,
+    /// The target, as numbered by [`Targets`](crate::abstraction::Targets).
+    pub target: u32,
+}
+
+/// The entries of every cell, ascending in the steps left.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Schedule {
+    /// Where the entries of each cell start; one more than cells.
+    pub(super) starts: Vec<usize>,
+    pub(super) entries: Vec<Entry>,
+}
+
+impl Schedule {
+    pub(super) fn new(abstraction: &Abstraction, policy: &Policy) -> Self {
+        let choices = abstraction.model.choices();
+        let mut schedule = Self { starts: vec![0], entries: vec![] };
+        for &state in &abstraction.state_of_cell {
+            for &(steps_left, choice) in policy.changes(state) {
+                // States that merge cells have no choices, so every entry is of one cell.
+                if let Some(target) = choices.row_of_choice(state, choice) {
+                    schedule.entries.push(Entry { steps_left, target });
+                }
+            }
+            schedule.starts.push(schedule.entries.len());
+        }
+        schedule
+    }
+
+    /// All entries of a cell.
+    pub(super) fn of(&self, cell: CellId) -> &[Entry] {
+        &self.entries[self.starts[cell.index()]..self.starts[cell.index() + 1]]
+    }
+
+    /// The target of a cell with so many steps left.
+    pub(super) fn target(&self, cell: CellId, steps_left: u64) -> Option<u32> {
+        let entries = self.of(cell);
+        let later = entries.partition_point(|entry| entry.steps_left <= steps_left);
+        later.checked_sub(1).map(|index| entries[index].target)
+    }
+}

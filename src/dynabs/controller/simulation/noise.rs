@@ -1,0 +1,63 @@
+//! The noise of a simulated run.
+
+use crate::model_file::{NoiseSource, StepNoise};
+use crate::noise::{Gaussian, NoiseSamples};
+use rand::{Rng, RngExt};
+
+/// Where the noise of the closed loop comes from.
+#[derive(Clone, Debug)]
+pub enum Noise {
+    /// A normal distribution of the noise of one step.
+    Gaussian(Gaussian),
+    /// Samples of the noise of one step, drawn with replacement.
+    StepSamples(NoiseSamples),
+    /// Samples of the noise of `d` steps together, drawn with replacement.
+    GroupedSamples(NoiseSamples),
+}
+
+impl Noise {
+    /// The noise that a source describes, and as truly as it is known: step by step if it can be.
+    pub fn of(source: &NoiseSource) -> Self {
+        match &source.of_one_step {
+            StepNoise::Gaussian(gaussian) => Self::Gaussian(gaussian.clone()),
+            StepNoise::Samples(samples) => Self::StepSamples(samples.clone()),
+            StepNoise::Unknown => Self::GroupedSamples(source.samples.clone()),
+        }
+    }
+
+    /// The dimension of the noise.
+    pub fn dimension(&self) -> usize {
+        match self {
+            Self::Gaussian(gaussian) => gaussian.dimension(),
+            Self::StepSamples(samples) | Self::GroupedSamples(samples) => samples.dimension(),
+        }
+    }
+
+    /// Whether every step has its own noise; otherwise that of a group comes with its last step.
+    pub fn is_stepwise(&self) -> bool {
+        !matches!(self, Self::GroupedSamples(_))
+    }
+
+    /// Draws the noise of a group of steps, step after step.
+    pub(super) fn draw(&self, rng: &mut impl Rng, steps: &mut [f64]) {
+        let n = self.dimension();
+        match self {
+            Self::Gaussian(gaussian) => {
+                steps.chunks_exact_mut(n).for_each(|noise| gaussian.draw(rng, noise));
+            }
+            Self::StepSamples(samples) => {
+                steps.chunks_exact_mut(n).for_each(|noise| pick(samples, rng, noise))
+            }
+            Self::GroupedSamples(samples) => {
+                // x⁺ = Â x + B̂ u + q̂ + η̂: with the noise of the last step weighted by the identity.
+                let last = steps.len() - n;
+                steps[..last].fill(0.0);
+                pick(samples, rng, &mut steps[last..]);
+            }
+        }
+    }
+}
+
+fn pick(samples: &NoiseSamples, rng: &mut impl Rng, noise: &mut [f64]) {
+    noise.copy_from_slice(samples.sample(rng.random_range(0..samples.len())));
+}

@@ -1,0 +1,282 @@
+//! A control problem that is known to make sense.
+
+use super::values::{input_set, matrix, vector};
+use super::{
+    Diagnostic, Document, DynamicsSpec, GroupSteps, Horizon, Mode, NoiseSource, ProbabilitiesSpec, Stabilizer,
+};
+use super::{regions, stabilizer};
+use crate::geometry::Polytope;
+use crate::linear_algebra::ExactMatrix;
+use crate::partition::{CellId, CellLabels, Grid, Region};
+use crate::system::{LinearSystem, group, smallest_group};
+use imdp::numeric::{Rational, from_decimal, to_f64};
+use imdp::property::Probability;
+use num_traits::{One, Zero};
+
+/// A validated control problem: everything that can be said before cells and samples meet.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// The name of the model.
+    pub name: String,
+    /// The system of one step.
+    pub step_system: LinearSystem,
+    /// The inputs of one step.
+    pub step_input: Polytope,
+    /// How many steps are grouped, `d`.
+    pub group_steps: usize,
+    /// The grouped system.
+    pub system: LinearSystem,
+    /// The inputs of the grouped system, `Uᵈ`.
+    pub input: Polytope,
+    /// The lower layer, if there is one.
+    pub stabilizer: Option<Stabilizer>,
+    /// The partition.
+    pub grid: Grid,
+    /// What the cells mean to the task.
+    pub labels: CellLabels,
+    /// The goal region.
+    pub goal: Vec<Region>,
+    /// The unsafe region.
+    pub unsafe_: Vec<Region>,
+    /// The points that actions steer to.
+    pub targets: TargetPoints,
+    /// The number of grouped steps, or `None` for an unbounded task.
+    pub horizon: Option<u64>,
+    /// The probability that is wanted.
+    pub threshold: Option<Probability>,
+    /// The cell of the initial state, if one was given.
+    pub initial_cell: Option<CellId>,
+    /// The initial state, if one was given.
+    pub initial_state: Option<Vec<f64>>,
+    /// How intervals are computed.
+    pub probabilities: Probabilities,
+    /// The noise samples of the grouped system.
+    pub noise: NoiseSource,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// The points that actions steer to.
+#[derive(Clone, Debug)]
+pub enum TargetPoints {
+    /// The centres of all cells.
+    Centers,
+    /// The centres of the cells of a grid.
+    Grid(Grid),
+    /// A list of points.
+    List(Vec<Vec<Rational>>),
+}
+
+/// How probability intervals are computed from the samples.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Probabilities {
+    /// Jointly valid with probability at least `1 − beta`.
+    Pac {
+        /// The failure probability, exactly.
+        beta: Rational,
+        /// How many of the farthest samples are left out of the cells that rows list.
+        discard: u64,
+    },
+    /// The published tool's intervals.
+    Reference {
+        /// The failure probability of one interval.
+        beta_per_interval: f64,
+    },
+}
+
+impl Problem {
+    /// Validates a model file and reads its noise samples.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] for the first mistake found.
+    pub fn from_document(document: &Document) -> Result<Self, Diagnostic> {
+        Self::build(document).map_err(|error| error.in_file(&document.name))
+    }
+
+    fn build(document: &Document) -> Result<Self, Diagnostic> {
+        let file = document.model()?;
+        let step_system = dynamics(&file.dynamics)?;
+        let n = step_system.state_dimension();
+        let step_input = input_set("/input", &file.input, step_system.input_dimension())?;
+        let group_steps = grouping(&file.dynamics, &step_system)?;
+        let system = group(&step_system, group_steps);
+        let input = step_input.power(group_steps);
+
+        let grid = regions::grid("/partition", &file.partition, n)?;
+        let targets = regions::targets("/targets", &file.targets, n)?;
+        let task = regions::task_regions(&file.task, &grid)?;
+        let mut warnings = task.warnings;
+        let horizon = horizon(file.task.horizon, group_steps, &mut warnings)?;
+        if group_steps > 1 && !task.unsafe_.is_empty() {
+            warnings.push(format!(
+                "the unsafe region is checked every {group_steps} steps, at grouped instants only"
+            ));
+        }
+        let threshold = file.task.threshold.map(threshold).transpose()?;
+        let initial_cell = match &file.initial_state {
+            None => None,
+            Some(x) => Some(initial_cell(x, &grid)?),
+        };
+        let stabilizer = match &file.stabilizer {
+            None => None,
+            Some(spec) => Some(stabilizer::stabilizer(spec, &system, &input, &grid)?),
+        };
+        let probabilities = probabilities(&file.probabilities)?;
+        let noise = NoiseSource::new(&document.directory, &file.noise, &step_system, group_steps)?;
+        warnings.extend(stabilizer.iter().flat_map(|s| s.warnings.iter().cloned()));
+        warnings.extend(noise.warnings.iter().cloned());
+        Ok(Self {
+            name: file.name,
+            step_system,
+            step_input,
+            group_steps,
+            system,
+            input,
+            stabilizer,
+            grid,
+            labels: task.labels,
+            goal: task.goal,
+            unsafe_: task.unsafe_,
+            targets,
+            horizon,
+            threshold,
+            initial_cell,
+            initial_state: file.initial_state,
+            probabilities,
+            noise,
+            warnings,
+        })
+    }
+}
+
+fn dynamics(spec: &DynamicsSpec) -> Result<LinearSystem, Diagnostic> {
+    let a = matrix("/dynamics/A", &spec.a, None, Some(spec.a.len()), "A is square")?;
+    let n = a.rows();
+    let b = matrix("/dynamics/B", &spec.b, Some(n), None, "as many as A has")?;
+    let q = match &spec.q {
+        None => ExactMatrix::zeros(n, 1),
+        Some(q) => {
+            let q = vector("/dynamics/q", q, n, "one per dimension of the state")?;
+            ExactMatrix::from_fn(n, 1, |i, _| q[i].clone())
+        }
+    };
+    let system = LinearSystem::new(a, b, q);
+    if !system.is_regular() {
+        let found = format!("a singular matrix of rank {}", system.a().rank());
+        return Err(Diagnostic::at("/dynamics/A", found, format!("a non-singular matrix of rank {n}"))
+            .remedy("Remove states that do not depend on the past, or discretise with another step."));
+    }
+    let rank = system.controllability_rank();
+    if rank < n {
+        let found = format!("an uncontrollable pair (A, B): [B AB …] has rank {rank}");
+        return Err(Diagnostic::at("/dynamics", found, format!("rank {n}, the dimension of the state"))
+            .remedy(
+                "Some directions of the state cannot be steered: add inputs or leave those states out.",
+            ));
+    }
+    Ok(system)
+}
+
+fn grouping(spec: &DynamicsSpec, system: &LinearSystem) -> Result<usize, Diagnostic> {
+    let n = system.state_dimension();
+    let smallest = smallest_group(system).unwrap_or(n);
+    let place = "/dynamics/group_steps";
+    match spec.group_steps {
+        GroupSteps::Auto => Ok(smallest),
+        GroupSteps::Steps(d) if d as usize > 64 => {
+            Err(Diagnostic::at(place, d.to_string(), format!("at most 64; {smallest} would do")))
+        }
+        GroupSteps::Steps(d) => {
+            let rank = group(system, d as usize).b().rank();
+            if rank == n {
+                return Ok(d as usize);
+            }
+            let found = format!("{d}, for which the grouped B has rank {rank}");
+            Err(Diagnostic::at(place, found, format!("a number of steps that makes its rank {n}"))
+                .remedy(format!("Use \"auto\" or {smallest}.")))
+        }
+    }
+}
+
+fn horizon(horizon: Horizon, d: usize, warnings: &mut Vec<String>) -> Result<Option<u64>, Diagnostic> {
+    let Horizon::Steps(steps) = horizon else { return Ok(None) };
+    let (grouped, rest) = (steps / d as u64, steps % d as u64);
+    if grouped == 0 {
+        let expected = format!("at least {d}, the number of steps that are grouped into one");
+        return Err(Diagnostic::at("/task/horizon", steps.to_string(), expected));
+    }
+    if rest > 0 {
+        let used = grouped * d as u64;
+        warnings.push(format!(
+            "/task/horizon: {steps} steps are {grouped} groups of {d}; the guarantee is for the first {used}"
+        ));
+    }
+    Ok(Some(grouped))
+}
+
+fn threshold(threshold: f64) -> Result<Probability, Diagnostic> {
+    Probability::from_f64(threshold)
+        .map_err(|_| Diagnostic::at("/task/threshold", threshold.to_string(), "a probability in [0, 1]"))
+}
+
+fn initial_cell(x: &[f64], grid: &Grid) -> Result<CellId, Diagnostic> {
+    let place = "/initial_state";
+    let exact = vector(place, x, grid.dimension(), "one per dimension of the state")?;
+    let outside = (0..x.len()).find(|&j| grid.axes()[j].locate(&exact[j]).is_none());
+    match (outside, grid.locate(&exact)) {
+        (None, Some(cell)) => Ok(cell),
+        (outside, _) => {
+            let j = outside.unwrap_or_default();
+            let axis = &grid.axes()[j];
+            let expected = format!(
+                "a state in the partition, [{}, {}) there",
+                to_f64(axis.lower()),
+                to_f64(axis.upper())
+            );
+            Err(Diagnostic::at(format!("{place}/{j}"), x[j].to_string(), expected)
+                .remedy("Move the state or enlarge the partition; cells do not contain their upper faces."))
+        }
+    }
+}
+
+fn probabilities(spec: &ProbabilitiesSpec) -> Result<Probabilities, Diagnostic> {
+    let place = |field: &str| format!("/probabilities/{field}");
+    let in_unit = |field: &str, x: f64| match from_decimal(x) {
+        Some(exact) if !exact.is_zero() && x > 0.0 && x < 1.0 => Ok(exact),
+        _ => Err(Diagnostic::at(place(field), x.to_string(), "a number strictly between 0 and 1")),
+    };
+    let foreign = |field: &str, mode: &str| {
+        Err(Diagnostic::at(
+            place(field),
+            "a field of the other mode",
+            format!("only fields of mode \"{mode}\""),
+        ))
+    };
+    match spec {
+        ProbabilitiesSpec { mode: Mode::Pac, beta_per_interval: Some(_), .. } => {
+            foreign("beta_per_interval", "pac")
+        }
+        ProbabilitiesSpec { mode: Mode::Reference, confidence: Some(_), .. } => {
+            foreign("confidence", "reference")
+        }
+        ProbabilitiesSpec { mode: Mode::Reference, beta: Some(_), .. } => foreign("beta", "reference"),
+        ProbabilitiesSpec { mode: Mode::Reference, discard: Some(_), .. } => foreign("discard", "reference"),
+        ProbabilitiesSpec { mode: Mode::Pac, confidence: Some(_), beta: Some(_), .. } => Err(Diagnostic::at(
+            "/probabilities",
+            "both confidence and beta",
+            "one of them: beta = 1 − confidence",
+        )),
+        ProbabilitiesSpec { mode: Mode::Pac, beta: Some(beta), discard, .. } => {
+            in_unit("beta", *beta).map(|beta| Probabilities::Pac { beta, discard: discard.unwrap_or(0) })
+        }
+        ProbabilitiesSpec { mode: Mode::Pac, confidence, discard, .. } => {
+            let confidence = in_unit("confidence", confidence.unwrap_or(0.99))?;
+            Ok(Probabilities::Pac { beta: Rational::one() - confidence, discard: discard.unwrap_or(0) })
+        }
+        ProbabilitiesSpec { mode: Mode::Reference, beta_per_interval, .. } => {
+            let beta_per_interval = beta_per_interval.unwrap_or(0.01);
+            in_unit("beta_per_interval", beta_per_interval)?;
+            Ok(Probabilities::Reference { beta_per_interval })
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! The model in formulas, as MathML.
+
+use super::markup::escape;
+use super::material::Material;
+use super::numbers::{short, subscripted, tuple};
+use super::regions::sides;
+use crate::geometry::Polytope;
+use crate::linear_algebra::ExactMatrix;
+use crate::partition::Region;
+use crate::system::LinearSystem;
+use imdp::numeric::to_f64;
+use num_traits::{Signed, Zero};
+
+/// System, inputs, lower layer, partition, task.
+pub(super) fn model(material: &Material<'_>) -> String {
+    let problem = material.problem();
+    let d = problem.group_steps;
+    let mut text = format!("<p>One step:</p>\n{}", system(&problem.step_system, "A", "B", "q", "u"));
+    text += &format!("<p>Inputs {}</p>\n", input_set(&problem.step_input, "u", "U"));
+    if d > 1 {
+        text += &format!(
+            "<p>{d} steps grouped into one, with the inputs of the first step first, and inputs in {} :</p>\n{}",
+            math(&format!("<msup><mi>U</mi><mn>{d}</mn></msup>")),
+            system(&problem.system, "Â", "B̂", "q̂", "û")
+        );
+    }
+    if let Some(stabilizer) = &problem.stabilizer {
+        let layers = &stabilizer.layers;
+        let input = if d > 1 { "û" } else { "u" };
+        let about = layers.about();
+        let state = match is_zero(about) {
+            true => "<mi>x</mi>".to_owned(),
+            false => format!("<mo>(</mo><mi>x</mi><mo>−</mo>{}<mo>)</mo>", matrix(about)),
+        };
+        text += &format!(
+            "<p>Two layers: the lower one stabilises, the upper one chooses u′ (eigenvalues of the closed loop: {}).</p>\n{}",
+            eigenvalues(&layers.eigenvalues()),
+            block(&format!(
+                "<mi>{input}</mi><mo>=</mo><mo>−</mo>{}{state}<mo>+</mo><msup><mi>u</mi><mo>′</mo></msup>",
+                matrix(layers.gain())
+            ))
+        );
+        text += &format!(
+            "<p>Inputs left to the upper layer, {}</p>\n",
+            input_set(layers.abstract_input(), "u′", "U′")
+        );
+    }
+    let grid: Vec<_> = problem
+        .grid
+        .axes()
+        .iter()
+        .enumerate()
+        .map(|(j, axis)| {
+            format!(
+                "{} ∈ [{}, {}) in {} cells of width {}",
+                subscripted("x", j + 1),
+                short(to_f64(axis.lower())),
+                short(to_f64(axis.upper())),
+                axis.cells(),
+                short(to_f64(axis.width()))
+            )
+        })
+        .collect();
+    text += &format!("<p>Partition: {}; everything outside counts as failed.</p>\n", grid.join(", "));
+    text += &format!(
+        "<p>Task: reach the goal {}, avoiding the unsafe region.</p>\n",
+        match problem.horizon {
+            Some(steps) => format!("within {} steps", steps * d as u64),
+            None => "at any time".to_owned(),
+        }
+    );
+    text += &boxes("Goal", &problem.goal);
+    text += &boxes("Unsafe region", &problem.unsafe_);
+    let seed = problem.noise.seed.map_or(String::new(), |seed| format!(", drawn with seed {seed}"));
+    let file =
+        problem.noise.file.as_ref().map_or(String::new(), |(name, _)| format!(", from {}", escape(name)));
+    text += &format!(
+        "<p>Noise: {} samples of {}{seed}{file}, of mean {}.</p>\n",
+        problem.noise.samples.len(),
+        if d > 1 { format!("{d} steps together") } else { "one step".to_owned() },
+        tuple(&material.noise_mean)
+    );
+    text
+}
+
+/// `x⁺ = A x + B u + q + η` with the matrices written out.
+fn system(system: &LinearSystem, a: &str, b: &str, q: &str, u: &str) -> String {
+    let constant = !is_zero(system.q());
+    let names = if constant { format!("<mo>+</mo><mi>{q}</mi>") } else { String::new() };
+    let column = if constant { format!("<mo>+</mo>{}", matrix(system.q())) } else { String::new() };
+    let noise = if u == "u" { "η" } else { "η̂" };
+    block(&format!(
+        "<msup><mi>x</mi><mo>+</mo></msup><mo>=</mo><mi>{a}</mi><mi>x</mi><mo>+</mo><mi>{b}</mi><mi>{u}</mi>{names}\
+         <mo>+</mo><mi>{noise}</mi><mo>=</mo>{}<mi>x</mi><mo>+</mo>{}<mi>{u}</mi>{column}<mo>+</mo><mi>{noise}</mi>",
+        matrix(system.a()),
+        matrix(system.b())
+    ))
+}
+
+fn math(content: &str) -> String {
+    format!("<math xmlns=\"http://www.w3.org/1998/Math/MathML\"><mrow>{content}</mrow></math>")
+}
+
+fn block(content: &str) -> String {
+    format!(
+        "<div class=\"wide\"><math xmlns=\"http://www.w3.org/1998/Math/MathML\" display=\"block\"><mrow>{content}</mrow></math></div>\n"
+    )
+}
+
+fn matrix(m: &ExactMatrix) -> String {
+    let entry = |i, j| format!("<mtd><mn>{}</mn></mtd>", short(to_f64(m.get(i, j))));
+    let row = |i| format!("<mtr>{}</mtr>", (0..m.columns()).map(|j| entry(i, j)).collect::<String>());
+    let rows: String = (0..m.rows()).map(row).collect();
+    format!("<mtable>{rows}</mtable>")
+}
+
+fn is_zero(m: &ExactMatrix) -> bool {
+    m.entries().iter().all(Zero::is_zero)
+}
+
+/// `U` as intervals if it is a box, else as `G u ≤ g`.
+fn input_set(set: &Polytope, input: &str, name: &str) -> String {
+    if let Some(sides) = box_sides(set) {
+        let interval = |(j, [lower, upper]): (usize, &[f64; 2])| {
+            let (lower, upper) = (short(*lower), short(*upper));
+            format!("{} ∈ [{lower}, {upper}]", subscripted(input, j + 1))
+        };
+        return format!("{name}: {}", sides.iter().enumerate().map(interval).collect::<Vec<_>>().join(", "));
+    }
+    let offsets = ExactMatrix::from_fn(set.offsets().len(), 1, |i, _| set.offsets()[i].clone());
+    let (normals, offsets) = (matrix(set.normals()), matrix(&offsets));
+    math(&format!("<mi>{name}</mi><mo>:</mo>{normals}<mi>{input}</mi><mo>≤</mo>{offsets}"))
+}
+
+/// The sides of a box: one pair of opposite half-spaces per dimension.
+fn box_sides(set: &Polytope) -> Option<Vec<[f64; 2]>> {
+    let normals = set.normals();
+    let mut sides = vec![[f64::NEG_INFINITY, f64::INFINITY]; set.dimension()];
+    for (i, offset) in set.offsets().iter().enumerate() {
+        let row: Vec<_> = (0..set.dimension()).filter(|&j| !normals.get(i, j).is_zero()).collect();
+        let [j] = row[..] else { return None };
+        let (normal, bound) = (normals.get(i, j), to_f64(&(offset / normals.get(i, j))));
+        let [lower, upper] = &mut sides[j];
+        if normal.is_positive() {
+            *upper = upper.min(bound);
+        } else {
+            *lower = lower.max(bound);
+        }
+    }
+    sides.iter().flatten().all(|side| side.is_finite()).then_some(sides)
+}
+
+fn eigenvalues(values: &[(f64, f64)]) -> String {
+    let shown = values.iter().map(|&(re, im)| match (format!("{re:.3}"), format!("{:.3}", im.abs())) {
+        (re, _) if im == 0.0 => re,
+        (re, size) => format!("{re} {} {size}i", if im < 0.0 { "−" } else { "+" }),
+    });
+    shown.collect::<Vec<_>>().join(", ")
+}
+
+/// A region as a list of boxes.
+fn boxes(name: &str, regions: &[Region]) -> String {
+    if regions.is_empty() {
+        return format!("<p>{name}: none.</p>\n");
+    }
+    let item = |region: &Region| {
+        let side = |j: usize| {
+            let (lower, upper) = sides(region, j);
+            let x = subscripted("x", j + 1);
+            match (lower.is_finite(), upper.is_finite()) {
+                (true, true) => Some(format!("{} ≤ {x} &lt; {}", short(lower), short(upper))),
+                (true, false) => Some(format!("{x} ≥ {}", short(lower))),
+                (false, true) => Some(format!("{x} &lt; {}", short(upper))),
+                (false, false) => None,
+            }
+        };
+        let sides: Vec<_> = (0..region.lower.len()).filter_map(side).collect();
+        format!("<li>{}</li>", if sides.is_empty() { "everything".to_owned() } else { sides.join(", ") })
+    };
+    let items: String = regions.iter().map(item).collect();
+    format!("<p>{name}:</p>\n<ul class=\"boxes\">{items}</ul>\n")
+}

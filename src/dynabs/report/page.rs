@@ -1,0 +1,73 @@
+//! The page.
+
+use super::data::embed;
+use super::heat_map::heat_map;
+use super::markup::{PLOT_STYLE, escape};
+use super::material::Material;
+use super::picked::facts;
+use super::section::section;
+use super::{formulas, tables, words};
+use crate::controller::export::render;
+
+const TEMPLATE: &str = include_str!("../../../templates/report.html");
+const STYLE: &str = include_str!("../../../templates/report.css");
+const SCRIPT: &str = include_str!("../../../templates/report.js");
+
+/// Why there is no page.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ReportError {
+    /// The template asks for something unknown: a mistake in this program.
+    #[error("the template of the report asks for {key}")]
+    Template {
+        /// What it asks for.
+        key: String,
+    },
+}
+
+/// The whole report as one HTML page that loads nothing.
+///
+/// # Errors
+/// [`ReportError`] if the embedded template is broken.
+pub fn page(material: &Material<'_>) -> Result<String, ReportError> {
+    let (run, problem) = (material.run, material.problem());
+    let view = material.first_view();
+    let embedded = embed(material, &view);
+    let description = run.document.model().ok().and_then(|model| model.description).unwrap_or_default();
+    let left_out = match &embedded.left_out[..] {
+        [] => String::new(),
+        list => format!("<p>Left out of this page for its size: {}.</p>\n", escape(&list.join("; "))),
+    };
+    let values = [
+        ("name", escape(&problem.name)),
+        ("description", escape(&description)),
+        ("mode", escape(&run.manifest.mode)),
+        ("version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("style", format!("{PLOT_STYLE}{STYLE}")),
+        ("guarantee", words::guarantee(material)),
+        ("warnings", words::warnings(run)),
+        ("map", heat_map(material, &view).inline()),
+        ("value_name", material.value_name().to_owned()),
+        ("about_runs", words::about_runs(material)),
+        ("facts", picked_cell(material)),
+        ("section", section(material, &view).inline()),
+        ("left_out", left_out),
+        ("simulation", tables::simulation(material)),
+        ("model", formulas::model(material)),
+        ("sizes", tables::sizes(material)),
+        ("budget", tables::budget(run)),
+        ("cross_checks", tables::cross_checks(material.options.cross_checks.as_ref())),
+        ("provenance", tables::provenance(run)),
+        ("data", embedded.json),
+        ("script", SCRIPT.to_owned()),
+    ];
+    render(TEMPLATE, &values).map_err(|key| ReportError::Template { key })
+}
+
+/// The facts about the cell where runs start.
+fn picked_cell(material: &Material<'_>) -> String {
+    let Some(cell) = material.controller.cell(&material.start) else { return String::new() };
+    let fact = |(id, name, value): &(&str, &str, String)| {
+        format!("<div><dt>{}</dt><dd id=\"fact-{id}\">{}</dd></div>\n", escape(name), escape(value))
+    };
+    facts(material, cell, 0).iter().map(fact).collect()
+}

@@ -1,0 +1,61 @@
+//! Goal and unsafe regions in a plane.
+
+use super::frame::{Frame, Scale};
+use super::material::Material;
+use super::numbers::coordinate;
+use super::view::{Axis, View};
+use crate::partition::Region;
+use imdp::numeric::{Rational, to_f64};
+
+/// A side of a region in one dimension, open sides as infinite numbers.
+pub(super) fn sides(region: &Region, dimension: usize) -> (f64, f64) {
+    let side = |side: &Option<Rational>, open: f64| side.as_ref().map_or(open, to_f64);
+    (side(&region.lower[dimension], f64::NEG_INFINITY), side(&region.upper[dimension], f64::INFINITY))
+}
+
+/// Both regions where they meet the plane: rectangles, outlined as unions.
+pub(super) fn regions(material: &Material<'_>, view: &View, frame: &Frame, id: &str) -> String {
+    let problem = material.problem();
+    let mut text = String::new();
+    for (class, list) in [("unsafe", &problem.unsafe_), ("goal", &problem.goal)] {
+        let boxes: String =
+            list.iter().filter_map(|region| rectangle(material, view, frame, region)).collect();
+        if boxes.is_empty() {
+            continue;
+        }
+        // The fill covers the inner half of the outlines: what is left surrounds the union.
+        text += &format!("<path class=\"{class} outline\" d=\"{boxes}\"/>");
+        if class == "unsafe" {
+            text += &format!("<path class=\"unsafe cover\" d=\"{boxes}\"/>");
+            text += &format!("<path fill=\"url(#{id}-hatch)\" d=\"{boxes}\"/>");
+        }
+    }
+    text
+}
+
+/// The hatching of the unsafe region.
+pub(super) fn hatch(id: &str) -> String {
+    format!(
+        "<pattern id=\"{id}-hatch\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" \
+         patternTransform=\"rotate(45)\"><path class=\"hatch\" d=\"M0 0v7\"/></pattern>\n"
+    )
+}
+
+/// The part of a region in the plane, as a path; `None` if it is elsewhere.
+fn rectangle(material: &Material<'_>, view: &View, frame: &Frame, region: &Region) -> Option<String> {
+    if !view.fixed().all(|j| view.meets(material, region, j)) {
+        return None;
+    }
+    let across = match view.across {
+        Axis::Time => (f64::NEG_INFINITY, f64::INFINITY),
+        Axis::State(j) => sides(region, j),
+    };
+    let (x0, x1) = within(across, &frame.x)?;
+    let (y0, y1) = within(sides(region, view.up), &frame.y)?;
+    Some(format!("M{x0} {y0}H{x1}V{y1}H{x0}Z"))
+}
+
+fn within((lower, upper): (f64, f64), scale: &Scale) -> Option<(String, String)> {
+    let (lower, upper) = (lower.max(scale.from), upper.min(scale.to));
+    (lower < upper).then(|| (coordinate(scale.at(lower)), coordinate(scale.at(upper))))
+}

@@ -1,0 +1,163 @@
+//! Tables: simulation, sizes, times, budget, other engines, files.
+
+use super::markup::{escape, table};
+use super::material::Material;
+use super::numbers::{short, tuple};
+use super::results::CrossChecks;
+use crate::run::Run;
+
+/// A number with thin spaces between groups of three digits.
+fn count(n: u64) -> String {
+    let digits = n.to_string();
+    let group = |(i, digit): (usize, char)| {
+        let gap = i > 0 && (digits.len() - i).is_multiple_of(3);
+        if gap { format!("\u{202f}{digit}") } else { digit.to_string() }
+    };
+    digits.chars().enumerate().map(group).collect()
+}
+
+fn row(cells: &[&str]) -> Vec<String> {
+    cells.iter().map(|cell| (*cell).to_owned()).collect()
+}
+
+/// How often simulated runs did what.
+pub(super) fn simulation(material: &Material<'_>) -> String {
+    let tally = &material.tally;
+    if tally.runs == 0 {
+        return "<p>Nothing was simulated.</p>\n".to_owned();
+    }
+    let frequency = tally.satisfaction(0.01);
+    let ends = [
+        ("reached a goal cell", tally.reached),
+        ("met the unsafe region (in a cell)", tally.r#unsafe),
+        ("left the partition", tally.outside),
+        ("came to a cell without actions", tally.no_action),
+        ("ran out of time", tally.over),
+        ("were given up", tally.unfinished),
+    ];
+    let share = |n: u64| short(n as f64 / tally.runs as f64);
+    let mut rows = vec![row(&["satisfied the task", &count(tally.satisfied), &share(tally.satisfied)])];
+    rows.extend(ends.iter().filter(|(_, n)| *n > 0).map(|(name, n)| row(&[name, &count(*n), &share(*n)])));
+    if material.problem().group_steps > 1 {
+        let n = tally.unsafe_between;
+        rows.push(row(&[
+            "met the unsafe region between grouped instants (not covered)",
+            &count(n),
+            &share(n),
+        ]));
+    }
+    rows.push(row(&["inputs outside U", &count(tally.violations), ""]));
+    let caption = format!(
+        "{} runs from x = {} under {}, seed {}",
+        count(tally.runs),
+        tuple(&material.start),
+        material.noise,
+        material.options.seed
+    );
+    let bound = material.controller.bound_at(&material.start);
+    let word = if frequency.contradicts(bound) { "contradicts" } else { "does not contradict" };
+    format!(
+        "<p>The share of runs that satisfied the task is {:.4}, so that its probability lies in [{:.4}, {:.4}] with \
+         confidence 0.99 (Clopper–Pearson). This {word} the computed lower bound, {}.</p>\n{}",
+        frequency.frequency,
+        frequency.lower,
+        frequency.upper,
+        crate::controller::export::lower_bound_text(bound),
+        table(&caption, &["runs that", "number", "share"], &rows)
+    )
+}
+
+/// What was built and how long it took here.
+pub(super) fn sizes(material: &Material<'_>) -> String {
+    let manifest = &material.run.manifest;
+    let grid = &material.problem().grid;
+    let per_axis: Vec<_> = grid.axes().iter().map(|axis| axis.cells().to_string()).collect();
+    let factors = if per_axis.len() > 1 { per_axis.join(" × ") + " = " } else { String::new() };
+    let mut rows = vec![
+        row(&["cells", &(factors + &count(u64::from(grid.num_cells())))]),
+        row(&["targets", &count(material.run.abstraction.targets.len() as u64)]),
+        row(&["states", &count(manifest.states)]),
+        row(&["choices", &count(manifest.choices)]),
+        row(&["transitions", &count(manifest.transitions)]),
+        row(&["of distinct rows", &count(manifest.rows)]),
+        row(&["with entries", &count(manifest.row_entries)]),
+        row(&["noise samples", &count(manifest.samples)]),
+        row(&[
+            "solver",
+            &format!(
+                "{}, {} iterations",
+                material.answer.solution.status, material.answer.solution.iterations
+            ),
+        ]),
+    ];
+    let times = material.options.times.iter();
+    rows.extend(times.map(|(phase, time)| row(&[phase, &format!("{:.3} s", time.as_secs_f64())])));
+    let property = format!("<p>Asked: <code>{}</code></p>\n", escape(&manifest.property));
+    property + &table("Sizes and times of this report", &[], &rows)
+}
+
+/// What the failure probability was spent on.
+pub(super) fn budget(run: &Run) -> String {
+    let probabilities = &run.manifest.probabilities;
+    let Some(beta) = probabilities.beta else {
+        let level = probabilities.beta_per_interval.map_or(String::new(), short);
+        return format!(
+            "<p>Reference mode has no budget: every interval has the level {level} for itself.</p>\n"
+        );
+    };
+    let line = |a: &crate::statistics::Allocation| {
+        let events = if a.events < 1e15 { count(a.events as u64) } else { short(a.events) };
+        row(&[&escape(&a.family), &events, &short(a.beta)])
+    };
+    let rows: Vec<_> = probabilities.budget.iter().map(line).collect();
+    let unseen = probabilities.unseen_mass.map_or(String::new(), |mass| {
+        format!(
+            "<p>At most {} of the noise's probability lies outside the window of cells that a row lists.</p>\n",
+            short(mass)
+        )
+    });
+    let caption = format!("How β = {} was spent; by the union bound all events hold together", short(beta));
+    table(&caption, &["family of events", "events", "β"], &rows) + &unseen
+}
+
+/// What other engines said; empty if nobody was asked.
+pub(super) fn cross_checks(results: Option<&CrossChecks>) -> String {
+    let Some(results) = results else { return String::new() };
+    let or_dash = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
+    let interval = |[lower, upper]: [f64; 2]| {
+        if lower == upper { format!("{lower:.9}") } else { format!("[{lower:.9}, {upper:.9}]") }
+    };
+    let rows = results.findings.iter().map(|finding| {
+        vec![
+            escape(&format!("{} {}", finding.engine, finding.version.as_deref().unwrap_or(""))),
+            format!("<code>{}</code>", escape(&finding.property)),
+            or_dash(finding.value.map(interval)),
+            interval(finding.ours),
+            or_dash(finding.difference.map(|difference| format!("{difference:.1e}"))),
+            or_dash(finding.seconds.map(|seconds| format!("{seconds:.2} s"))),
+            escape(&finding.agreement),
+        ]
+    });
+    let header = ["engine", "property", "its value", "ours", "largest difference", "time", "outcome"];
+    let caption = "Other engines asked the same; the difference is the largest over all states";
+    format!(
+        "<section>\n<h2>Cross-check</h2>\n{}</section>\n",
+        table(caption, &header, &rows.collect::<Vec<_>>())
+    )
+}
+
+/// What was read, and where this page comes from.
+pub(super) fn provenance(run: &Run) -> String {
+    let manifest = &run.manifest;
+    let inputs = manifest.inputs.iter().map(|file| ("read", &file.name, &file.sha256));
+    let outputs = manifest.outputs.iter().map(|file| ("written", &file.name, &file.sha256));
+    let rows: Vec<_> = inputs
+        .chain(outputs)
+        .map(|(how, name, hash)| row(&[&escape(name), how, &format!("<code>{}</code>", escape(hash))]))
+        .collect();
+    let set = match manifest.set.is_empty() {
+        true => String::new(),
+        false => format!("<p>Changed with --set: <code>{}</code></p>\n", escape(&manifest.set.join(" "))),
+    };
+    set + &table("Files", &["file", "", "SHA-256"], &rows)
+}

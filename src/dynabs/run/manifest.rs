@@ -1,0 +1,252 @@
+//! What a run was, in one JSON file: the same for the same input.
+
+use super::pruning::PruningReport;
+use super::row_states::RowStatesReport;
+use crate::abstraction::Abstraction;
+use crate::model_file::{Document, Problem};
+use crate::statistics::Allocation;
+use imdp::formats::prism::RAISED_LOWER_BOUND;
+use imdp::formats::sha256_hex;
+use imdp::numeric::{Rational, from_decimal, to_f64};
+use imdp::property::Probability;
+use num_traits::One;
+use serde::{Deserialize, Serialize};
+
+/// The format of the manifest itself.
+const FORMAT: &str = "dynabs run";
+/// Its version.
+const FORMAT_VERSION: u32 = 1;
+
+/// What went into a run and what came out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// `dynabs run`.
+    pub format: String,
+    /// The version of this format.
+    pub format_version: u32,
+    /// The version of the tool.
+    pub version: String,
+    /// The name of the model.
+    pub name: String,
+    /// The number of states.
+    pub states: u64,
+    /// The number of choices.
+    pub choices: u64,
+    /// The number of transitions when every choice is written out.
+    pub transitions: u64,
+    /// The number of distinct rows that these transitions come from.
+    pub rows: u64,
+    /// The number of entries of these rows.
+    pub row_entries: u64,
+    /// `pac` or `reference`.
+    pub mode: String,
+    /// The probability with which all claims hold together; none in reference mode.
+    pub confidence: Option<f64>,
+    /// How the intervals came about.
+    pub probabilities: ProbabilityReport,
+    /// The task's horizon.
+    pub horizon: Option<GroupedHorizon>,
+    /// The number of original steps that one model step stands for.
+    pub group_steps: u64,
+    /// The task as a property.
+    pub property: String,
+    /// The threshold asked for.
+    pub threshold: Option<f64>,
+    /// The initial state asked for.
+    pub initial_state: Option<Vec<f64>>,
+    /// Its state in the model.
+    pub initial_model_state: Option<u32>,
+    /// The lower layer, if there is one.
+    pub stabilizer: Option<LayerReport>,
+    /// The model of the files `rows.*`, if they are written.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub row_states: Option<RowStatesReport>,
+    /// What pruning left of the model; all sizes above are those of what is left.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pruning: Option<PruningReport>,
+    /// What a lower bound of 0 is written as in `model.tra`.
+    pub prism_lower_bound: f64,
+    /// What that can change.
+    pub prism_lower_bound_note: String,
+    /// The number of noise samples of the grouped system.
+    pub samples: u64,
+    /// The seed they were drawn with, if they were drawn.
+    pub seed: Option<u64>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    /// What `--set` changed.
+    pub set: Vec<String>,
+    /// The files read.
+    pub inputs: Vec<InputFile>,
+    /// The files written, but for this one.
+    pub outputs: Vec<OutputFile>,
+}
+
+/// How probability intervals came about.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ProbabilityReport {
+    /// The probability that some claim fails, at most; none in reference mode.
+    pub beta: Option<f64>,
+    /// The families of events that it was split over.
+    pub budget: Vec<Allocation>,
+    /// The bound on the mass outside the window of cells that a row lists.
+    pub unseen_mass: Option<f64>,
+    /// In reference mode, the failure probability of one interval.
+    pub beta_per_interval: Option<f64>,
+    /// Which properties the claim is about.
+    pub covers: String,
+}
+
+/// A horizon in original and in model steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GroupedHorizon {
+    /// In steps of the model: groups.
+    pub model_steps: u64,
+    /// In steps of the original system.
+    pub original_steps: u64,
+}
+
+/// A lower layer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LayerReport {
+    /// `K`, row by row.
+    pub gain: Vec<Vec<f64>>,
+    /// The eigenvalues of `A − BK` as `[re, im]`.
+    pub closed_loop_eigenvalues: Vec<[f64; 2]>,
+    /// The relative residual of the Riccati equation, for LQR gains.
+    pub riccati_residual: Option<f64>,
+}
+
+/// A file that was read.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct InputFile {
+    /// Its name, without the directory it was in.
+    pub name: String,
+    /// Its SHA-256.
+    pub sha256: String,
+}
+
+/// A file that was written.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OutputFile {
+    /// Its name in the directory.
+    pub name: String,
+    /// Its size.
+    pub bytes: u64,
+    /// Its SHA-256.
+    pub sha256: String,
+}
+
+impl Manifest {
+    /// Describes the compilation of `problem`; files are added by whoever writes them.
+    pub fn new(document: &Document, source: &str, problem: &Problem, abstraction: &Abstraction) -> Self {
+        let size = abstraction.model.size();
+        let guarantee = abstraction.guarantee.as_ref();
+        let d = problem.group_steps as u64;
+        Self {
+            format: FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            version: env!("CARGO_PKG_VERSION").into(),
+            name: problem.name.clone(),
+            states: size.states,
+            choices: size.choices,
+            transitions: size.transitions,
+            rows: size.rows,
+            row_entries: size.entries,
+            mode: if guarantee.is_some() { "pac" } else { "reference" }.into(),
+            confidence: guarantee.and_then(|guarantee| complement(guarantee.beta)),
+            probabilities: ProbabilityReport::new(problem, abstraction),
+            horizon: problem
+                .horizon
+                .map(|steps| GroupedHorizon { model_steps: steps, original_steps: steps * d }),
+            group_steps: d,
+            property: abstraction.property.to_string(),
+            threshold: problem.threshold.as_ref().map(Probability::to_f64),
+            initial_state: problem.initial_state.clone(),
+            initial_model_state: problem.initial_cell.map(|cell| abstraction.state_of_cell[cell.index()]),
+            stabilizer: LayerReport::new(problem),
+            row_states: None,
+            pruning: None,
+            prism_lower_bound: RAISED_LOWER_BOUND,
+            prism_lower_bound_note: lower_bound_note(problem),
+            samples: problem.noise.samples.len() as u64,
+            seed: problem.noise.seed,
+            warnings: problem.warnings.iter().chain(&abstraction.warnings).cloned().collect(),
+            set: vec![],
+            inputs: inputs(document, source, problem),
+            outputs: vec![],
+        }
+    }
+
+    /// Whether this is a manifest of ours.
+    pub fn is_ours(&self) -> bool {
+        self.format == FORMAT
+    }
+}
+
+impl ProbabilityReport {
+    fn new(problem: &Problem, abstraction: &Abstraction) -> Self {
+        match &abstraction.guarantee {
+            Some(guarantee) => Self {
+                beta: Some(guarantee.beta),
+                budget: guarantee.budget.clone(),
+                unseen_mass: Some(guarantee.unseen_mass),
+                beta_per_interval: None,
+                covers: "lower bounds (Pmaxmin, Pminmin) of formulas that are false from \"failed\" on, and upper \
+                         bounds with maximising nature of F \"failed\""
+                    .into(),
+            },
+            None => Self {
+                beta: None,
+                budget: vec![],
+                unseen_mass: None,
+                beta_per_interval: match problem.probabilities {
+                    crate::model_file::Probabilities::Reference { beta_per_interval } => Some(beta_per_interval),
+                    crate::model_file::Probabilities::Pac { .. } => None,
+                },
+                covers: "nothing: these intervals repeat the published tool's and are no guarantee".into(),
+            },
+        }
+    }
+}
+
+impl LayerReport {
+    fn new(problem: &Problem) -> Option<Self> {
+        let stabilizer = problem.stabilizer.as_ref()?;
+        let gain = stabilizer.layers.gain().to_f64();
+        Some(Self {
+            gain: gain.row_iter().map(|row| row.iter().copied().collect()).collect(),
+            closed_loop_eigenvalues: stabilizer
+                .layers
+                .eigenvalues()
+                .iter()
+                .map(|&(re, im)| [re, im])
+                .collect(),
+            riccati_residual: stabilizer.riccati_residual,
+        })
+    }
+}
+
+/// `1 − β` for the decimal `β`: 0.99 for 0.01.
+fn complement(beta: f64) -> Option<f64> {
+    from_decimal(beta).map(|beta| to_f64(&(Rational::one() - beta)))
+}
+
+fn lower_bound_note(problem: &Problem) -> String {
+    if problem.horizon.is_some() {
+        "model.tra raises lower bounds of 0 to this: the value moves by at most horizon × row length × this"
+            .into()
+    } else {
+        "model.tra raises lower bounds of 0 to this: for an unbounded horizon that can change the exact value of \
+         what model.tra says altogether; the native value is that of the bounds of 0"
+            .into()
+    }
+}
+
+fn inputs(document: &Document, source: &str, problem: &Problem) -> Vec<InputFile> {
+    let base = |name: &str| name.rsplit(['/', '\\']).next().unwrap_or(name).to_owned();
+    let file = |name: &str, text: &str| InputFile { name: base(name), sha256: sha256_hex(text.as_bytes()) };
+    let model = file(&document.name, source);
+    let noise = problem.noise.file.as_ref().map(|(name, text)| file(name, text));
+    std::iter::once(model).chain(noise).collect()
+}

@@ -1,0 +1,17 @@
+//! The output directory of a run: staged, hashed, renamed into place, described by a manifest; and opened again.
+
+mod manifest;
+mod open;
+mod pruning;
+mod record;
+mod row_states;
+mod staging;
+mod write;
+
+pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile, ProbabilityReport};
+pub use open::{OpenError, Run};
+pub use pruning::PruningReport;
+pub use record::{RecordError, open_record};
+pub use row_states::RowStatesReport;
+pub use staging::{RunDirectoryError, Staging};
+pub use write::{NATIVE_MODEL, WriteOptions, write_run};

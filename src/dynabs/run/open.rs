@@ -1,0 +1,200 @@
+//! A run opened again, with everything that it knows.
+
+use super::manifest::Manifest;
+use super::staging::MANIFEST;
+use super::write::{NATIVE_MODEL, PROBLEM};
+use crate::abstraction::{Abstraction, AbstractionError, Guarantee};
+use crate::model_file::{Diagnostic, Document, Problem};
+use imdp::formats::native::{self, NativeError};
+use imdp::formats::sha256_hex;
+use imdp::progress::Progress;
+use imdp::property::Property;
+use imdp::solver::{Answer, AnswerError, SolverOptions};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A directory written by `dynabs-compile`: problem, model and manifest, known to belong together.
+///
+/// ```
+/// use dynabs::abstraction::compile;
+/// use dynabs::run::{Manifest, Run, WriteOptions, write_run};
+/// use dynabs::imdp::solver::SolverOptions;
+/// use dynabs::model_file::{Document, Problem};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/room_temperature.json");
+/// let source = std::fs::read_to_string(path)?;
+/// let document = Document::parse(path.as_ref(), &source)?;
+/// let problem = Problem::from_document(&document)?;
+/// let abstraction = compile(&problem, &())?;
+/// let manifest = Manifest::new(&document, &source, &problem, &abstraction);
+/// let scratch = tempfile::tempdir()?;
+/// let directory = scratch.path().join("room");
+/// write_run(&directory, &document, &problem, &abstraction, manifest, WriteOptions::default(), &())?;
+///
+/// let run = Run::open(&directory, &())?;
+/// let answer = run.solve(&SolverOptions { policy: true, ..SolverOptions::default() })?;
+/// assert!(answer.lower > 0.99 && answer.solution.policy.is_some());
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// The directory.
+    pub directory: PathBuf,
+    /// What the run was.
+    pub manifest: Manifest,
+    /// The model file, after `--set`.
+    pub document: Document,
+    /// The problem that it states, with its samples.
+    pub problem: Problem,
+    /// The model, its targets, the law, and which cell became which state.
+    pub abstraction: Abstraction,
+}
+
+/// Why a directory is no run that can be used.
+#[derive(Debug, thiserror::Error)]
+pub enum OpenError {
+    /// It was not written by `dynabs-compile`.
+    #[error("{path}: found {found}; expected a directory written by dynabs-compile")]
+    NoRun {
+        /// The path.
+        path: String,
+        /// What is there.
+        found: String,
+    },
+    /// A file is not the one that was written.
+    #[error(
+        "{path}: found other bytes than the manifest's hash is of; expected the file as it was written\n  Compile the model again."
+    )]
+    Changed {
+        /// The path of the file.
+        path: String,
+    },
+    /// The model was pruned.
+    #[error(
+        "{path}: found a pruned model; expected the whole one, whose actions are compared with the law\n  Compile it without --prune: the value and the policy are the same."
+    )]
+    Pruned {
+        /// The directory.
+        path: String,
+    },
+    /// The system does not let us read a file.
+    #[error("{path}: {error}")]
+    Io {
+        /// The path of the file.
+        path: String,
+        /// What the system said.
+        error: io::Error,
+    },
+    /// The problem is not one.
+    #[error(transparent)]
+    Problem(#[from] Diagnostic),
+    /// The native model cannot be read.
+    #[error("{path}: {error}")]
+    Model {
+        /// The path of the model.
+        path: String,
+        /// What is wrong with it.
+        error: NativeError,
+    },
+    /// Problem and model do not fit.
+    #[error("{path}: {error}\n  Compile the model again with this version of dynabs.")]
+    Abstraction {
+        /// The directory.
+        path: String,
+        /// What does not fit.
+        error: AbstractionError,
+    },
+}
+
+impl Run {
+    /// Opens a directory: nothing in it is believed before its hash is that of the manifest.
+    ///
+    /// # Errors
+    /// [`OpenError`] if something is missing, changed, or made by an incompatible version.
+    pub fn open(directory: &Path, progress: &dyn Progress) -> Result<Self, OpenError> {
+        let shown = directory.display().to_string();
+        let manifest = read_manifest(directory)?;
+        if manifest.pruning.is_some() {
+            return Err(OpenError::Pruned { path: shown });
+        }
+        let verified = |name: &str| read_verified(directory, name, &manifest);
+        let path = directory.join(PROBLEM);
+        let text = String::from_utf8_lossy(&verified(PROBLEM)?).into_owned();
+        let document = Document::parse(&path, &text)?;
+        let problem = Problem::from_document(&document)?;
+        if let Some((name, text)) = &problem.noise.file {
+            // What was read, not what is there by now.
+            verify(directory, name, text.as_bytes(), &manifest)?;
+        }
+        let bytes = verified(NATIVE_MODEL)?;
+        let model = native::read_from(bytes.as_slice(), bytes.len() as u64).map_err(|error| {
+            OpenError::Model { path: directory.join(NATIVE_MODEL).display().to_string(), error }
+        })?;
+        let guarantee = guarantee(&manifest);
+        let abstraction = Abstraction::reopen(&problem, model, guarantee, progress)
+            .map_err(|error| OpenError::Abstraction { path: shown, error })?;
+        Ok(Self { directory: directory.to_path_buf(), manifest, document, problem, abstraction })
+    }
+
+    /// The task as a property of the model.
+    pub fn property(&self) -> &Property {
+        &self.abstraction.property
+    }
+
+    /// Solves the task; the same bounds and policy for the same directory and options.
+    ///
+    /// # Errors
+    /// [`AnswerError`] if the options make no sense.
+    pub fn solve(&self, options: &SolverOptions<'_>) -> Result<Answer, AnswerError> {
+        Answer::new(&self.abstraction.model, self.property(), options)
+    }
+}
+
+fn guarantee(manifest: &Manifest) -> Option<Guarantee> {
+    let probabilities = &manifest.probabilities;
+    Some(Guarantee {
+        beta: probabilities.beta?,
+        budget: probabilities.budget.clone(),
+        unseen_mass: probabilities.unseen_mass?,
+    })
+}
+
+fn read_manifest(directory: &Path) -> Result<Manifest, OpenError> {
+    let refuse = |found: String| OpenError::NoRun { path: directory.display().to_string(), found };
+    if !directory.is_dir() {
+        let found = if directory.exists() { "a file" } else { "nothing" };
+        return Err(refuse(found.to_owned()));
+    }
+    let path = directory.join(MANIFEST);
+    let bytes = fs::read(&path).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => refuse(format!("no {MANIFEST}")),
+        _ => OpenError::Io { path: path.display().to_string(), error },
+    })?;
+    let manifest: Manifest = serde_json::from_slice(&bytes)
+        .map_err(|error| refuse(format!("a {MANIFEST} that cannot be read ({error})")))?;
+    if manifest.is_ours() { Ok(manifest) } else { Err(refuse(format!("the {MANIFEST} of another format"))) }
+}
+
+fn read_verified(directory: &Path, name: &str, manifest: &Manifest) -> Result<Vec<u8>, OpenError> {
+    let path = directory.join(name);
+    let bytes = fs::read(&path).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => {
+            OpenError::NoRun { path: directory.display().to_string(), found: format!("no {name}") }
+        }
+        _ => OpenError::Io { path: path.display().to_string(), error },
+    })?;
+    verify(directory, name, &bytes, manifest)?;
+    Ok(bytes)
+}
+
+fn verify(directory: &Path, name: &str, bytes: &[u8], manifest: &Manifest) -> Result<(), OpenError> {
+    let hash = sha256_hex(bytes);
+    if manifest.outputs.iter().any(|file| file.name == name && file.sha256 == hash) {
+        Ok(())
+    } else {
+        Err(OpenError::Changed { path: directory.join(name).display().to_string() })
+    }
+}

@@ -1,0 +1,99 @@
+//! Writing all files of a run.
+
+use super::manifest::Manifest;
+use super::row_states::RowStatesReport;
+use super::staging::{RunDirectoryError, Staging};
+use crate::abstraction::Abstraction;
+use crate::model_file::{Document, Problem};
+use imdp::formats::row_states::RowStates;
+use imdp::formats::umb::Compression;
+use imdp::formats::{Encoding, Format, ModelWriter, native};
+use imdp::progress::Progress;
+use std::io::Write;
+use std::path::Path;
+
+/// What to write and what may be replaced.
+#[derive(Clone, Debug, Default)]
+pub struct WriteOptions {
+    /// The formats to write the model in, besides the native one.
+    pub formats: Vec<Format>,
+    /// How choices are written in these formats; files with row states are called `rows` and not `model`.
+    pub encoding: Encoding,
+    /// Replace an earlier run.
+    pub force: bool,
+}
+
+/// The name of the native model in a run's directory.
+pub const NATIVE_MODEL: &str = "model.dynabs";
+
+/// The name of the problem in a run's directory.
+pub(super) const PROBLEM: &str = "problem.json";
+
+/// The name of the noise samples in a run's directory.
+const NOISE: &str = "noise.csv";
+
+/// Writes the directory `target`: the model in the formats asked for, the native model, the property, the problem, the samples, the manifest.
+///
+/// Returns the manifest with the list of files. Either all files appear or none.
+///
+/// # Errors
+/// [`RunDirectoryError`] if the place is taken, the disk too small, the model beyond a format, or writing fails.
+pub fn write_run(
+    target: &Path,
+    document: &Document,
+    problem: &Problem,
+    abstraction: &Abstraction,
+    mut manifest: Manifest,
+    options: WriteOptions,
+    progress: &dyn Progress,
+) -> Result<Manifest, RunDirectoryError> {
+    let model = &abstraction.model;
+    let encoded = match options.encoding {
+        Encoding::Rows => Some(RowStates::new(model)?),
+        Encoding::Plain => None,
+    };
+    let (stem, explicit) = encoded.as_ref().map_or(("model", model), |encoded| ("rows", &encoded.model));
+    let formats = Format::ALL.into_iter().filter(|format| options.formats.contains(format));
+    // The native file is always written, with all its choices.
+    let formats = formats.filter(|&format| format != Format::Native);
+    let writers: Vec<_> = formats
+        .map(|format| ModelWriter::new(explicit, format, Compression::Gzip))
+        .collect::<Result<_, _>>()?;
+    let mut staging = Staging::begin(target, options.force)?;
+    for writer in &writers {
+        staging.require_space(writer.bytes())?;
+        for (i, extension) in writer.extensions().iter().enumerate() {
+            let name = format!("{stem}.{extension}");
+            progress.start(&name, if i == 0 { writer.bytes() } else { 0 });
+            staging.write(&name, |out| writer.write(extension, out, progress))?;
+            progress.finish();
+        }
+    }
+    if let Some(encoded) = encoded.as_ref().filter(|_| !writers.is_empty()) {
+        let property = encoded.translate(&abstraction.property)?;
+        staging.write("rows.props", |out| writeln!(out, "{property}"))?;
+        manifest.row_states = Some(RowStatesReport::new(encoded, property));
+    }
+    staging.write(NATIVE_MODEL, |out| native::write(model, out))?;
+    staging.write("model.props", |out| writeln!(out, "{}", abstraction.property))?;
+    staging.write(PROBLEM, |out| out.write_all(self_contained(document, problem).as_bytes()))?;
+    staging.write(NOISE, |out| match &problem.noise.file {
+        Some((_, text)) => out.write_all(text.as_bytes()),
+        None => out.write_all(problem.noise.samples.to_csv().as_bytes()),
+    })?;
+    manifest.outputs = staging.files().to_vec();
+    staging.commit(&manifest)?;
+    Ok(manifest)
+}
+
+/// The model file after `--set`, referring to the samples beside it.
+fn self_contained(document: &Document, problem: &Problem) -> String {
+    let mut value = document.value.clone();
+    if problem.noise.file.is_some()
+        && let Some(file) = value.pointer_mut("/noise/samples/file")
+    {
+        *file = NOISE.into();
+    }
+    // A JSON value always has a text.
+    format!("{value:#}\n")
+}

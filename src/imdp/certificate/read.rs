@@ -1,0 +1,162 @@
+//! Reading certificates, trusting nothing.
+
+use super::{Certificate, Evidence, Inductive, ModelFile, Step};
+use super::{CertificateError, FIRST_LINE};
+use crate::model::{StateId, require_memory};
+use sha2::{Digest, Sha256};
+use std::path::Path;
+use std::str::FromStr;
+
+/// Reads a certificate from a file.
+///
+/// # Errors
+/// [`CertificateError`]; any truncation and any changed byte is noticed.
+pub fn read_file(path: &Path) -> Result<Certificate, CertificateError> {
+    // The text, and at most 16 bytes for a state and an item that take 4 or more in it.
+    require_memory("the certificate", std::fs::metadata(path)?.len().saturating_mul(5))?;
+    read(&std::fs::read(path)?)
+}
+
+/// Reads a certificate that [`write`](super::write()) has written.
+///
+/// # Errors
+/// Those of [`read_file`].
+pub fn read(bytes: &[u8]) -> Result<Certificate, CertificateError> {
+    let first = bytes.split(|&byte| byte == b'\n').next().unwrap_or_default();
+    if first != FIRST_LINE.as_bytes() {
+        let found = shortened(&String::from_utf8_lossy(&first[..first.len().min(SHOWN)]));
+        // A file cut off in its first line starts like a certificate.
+        return Err(match FIRST_LINE.as_bytes().starts_with(first) {
+            true => CertificateError::Truncated,
+            false => CertificateError::NotACertificate { found, expected: FIRST_LINE.to_owned() },
+        });
+    }
+    let lines = bytes.strip_suffix(b"\n").ok_or(CertificateError::Truncated)?;
+    let last = lines.iter().rposition(|&byte| byte == b'\n').map_or(0, |at| at + 1);
+    let (content, last) = (&bytes[..last], &lines[last..]);
+    let digest = last.strip_prefix(b"end ").filter(|digest| digest.len() == 64);
+    let digest = digest.ok_or(CertificateError::Truncated)?;
+    let found: String = Sha256::digest(content).iter().map(|byte| format!("{byte:02x}")).collect();
+    if found.as_bytes() != digest {
+        return Err(CertificateError::Digest);
+    }
+    let text = str::from_utf8(content).map_err(|_| CertificateError::Digest)?;
+    let mut lines = Lines { rest: text.lines().collect(), at: 1 };
+    lines.certificate()
+}
+
+/// The lines between the first and the last.
+struct Lines<'a> {
+    rest: Vec<&'a str>,
+    at: usize,
+}
+
+impl<'a> Lines<'a> {
+    fn certificate(&mut self) -> Result<Certificate, CertificateError> {
+        let property = self.item("property", "a property that can be read", |text| text.parse().ok())?;
+        let mut files = vec![];
+        while let Some(text) = self.peek("model") {
+            let (kind, sha256) = text.split_once(' ').unwrap_or((text, ""));
+            files.push(ModelFile { kind: kind.to_owned(), sha256: sha256.to_owned() });
+            self.at += 1;
+        }
+        let states = self.item("states", "their number", number)?;
+        let claim = |text: &str| {
+            let (lower, upper) = text.split_once(' ')?;
+            Some((probability(lower)?, probability(upper)?))
+        };
+        let (lower, upper) = self.item("claim", "two probabilities", claim)?;
+        let evidence = self.evidence()?;
+        if self.at < self.rest.len() {
+            return Err(self.broken("the end"));
+        }
+        Ok(Certificate { property, files, states, lower, upper, evidence })
+    }
+
+    fn evidence(&mut self) -> Result<Evidence, CertificateError> {
+        if self.peek("inductive").is_some() {
+            self.at += 1;
+            return Ok(Evidence::Inductive(Inductive {
+                choices: self.list("choices", number)?,
+                lower: self.list("lower", probability)?,
+                upper: self.list("upper", probability)?,
+                ranks: self.list("ranks", number)?,
+            }));
+        }
+        let mut steps = vec![];
+        while self.peek("step").is_some() {
+            let next = (steps.len() + 1).to_string();
+            self.item("step", &next, |text| (text == next).then_some(()))?;
+            steps.push(Step {
+                choices: self.list("choices", number)?,
+                lower: self.list("lower", probability)?,
+                upper: self.list("upper", probability)?,
+            });
+        }
+        Ok(Evidence::Steps(steps))
+    }
+
+    /// The pairs of the line with this name, if it comes next.
+    fn list<T>(
+        &mut self,
+        name: &str,
+        item: impl Fn(&str) -> Option<T>,
+    ) -> Result<Vec<(StateId, T)>, CertificateError> {
+        if self.peek(name).is_none() {
+            return Ok(vec![]);
+        }
+        self.item(name, "pairs of a state and a number in its range", |text| {
+            let mut words = text.split_ascii_whitespace();
+            let mut list = Vec::with_capacity(text.len() / 4);
+            while let Some(state) = words.next() {
+                list.push((number(state)?, item(words.next()?)?));
+            }
+            list.shrink_to_fit();
+            Some(list)
+        })
+    }
+
+    /// What follows this word in the next line, made something of.
+    fn item<T>(
+        &mut self,
+        name: &str,
+        content: &str,
+        make: impl FnOnce(&str) -> Option<T>,
+    ) -> Result<T, CertificateError> {
+        let item = self.peek(name).and_then(make);
+        let item = item.ok_or_else(|| self.broken(format!("`{name}` and {content}")))?;
+        self.at += 1;
+        Ok(item)
+    }
+
+    /// The rest of the next line, if it starts with this word.
+    fn peek(&self, word: &str) -> Option<&'a str> {
+        let rest = self.rest.get(self.at)?.strip_prefix(word)?;
+        if rest.is_empty() { Some(rest) } else { rest.strip_prefix(' ') }
+    }
+
+    fn broken(&self, expected: impl Into<String>) -> CertificateError {
+        let found = shortened(self.rest.get(self.at).unwrap_or(&"end"));
+        CertificateError::Line { line: self.at + 1, found, expected: expected.into() }
+    }
+}
+
+/// How many characters of a line a message shows.
+const SHOWN: usize = 40;
+
+fn shortened(text: &str) -> String {
+    match text.char_indices().nth(SHOWN) {
+        Some((at, _)) => format!("{}…", &text[..at]),
+        None => text.to_owned(),
+    }
+}
+
+fn number<T: FromStr>(text: &str) -> Option<T> {
+    text.parse().ok()
+}
+
+/// A double in `[0, 1]`.
+fn probability(text: &str) -> Option<f64> {
+    let value: f64 = text.parse().ok()?;
+    ((0.0..=1.0).contains(&value) && value.is_sign_positive()).then_some(value)
+}

@@ -1,0 +1,110 @@
+//! Why two sides cannot be compared.
+
+use crate::formats::ImportError;
+use crate::formats::native::NativeError;
+use crate::property::{ParseError, PropertyError};
+use crate::solver::SolveError;
+use std::io;
+
+/// Why two sides cannot be compared.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CompareError {
+    /// There is nothing of this name.
+    #[error(
+        "{path}: found nothing; expected a run directory, a .tra, .drn, .umb or .dynabs file, results in JSON or a reference file"
+    )]
+    Missing {
+        /// The path.
+        path: String,
+    },
+    /// There is something, but nothing that could be compared.
+    #[error("{path}: found {found}; expected {expected}")]
+    Unusable {
+        /// The path.
+        path: String,
+        /// What is there.
+        found: String,
+        /// What would be of use.
+        expected: &'static str,
+    },
+    /// A file cannot be read.
+    #[error("{path}: {error}")]
+    Io {
+        /// The path.
+        path: String,
+        /// What the system said.
+        error: io::Error,
+    },
+    /// The file of a model is refused.
+    #[error(transparent)]
+    Import(#[from] ImportError),
+    /// A property cannot be read.
+    #[error("{path}: {error}")]
+    Properties {
+        /// The file, or the side, it comes from.
+        path: String,
+        /// Why.
+        error: ParseError,
+    },
+    /// A property is not about the model.
+    #[error("{property}: {error}")]
+    Property {
+        /// The property.
+        property: String,
+        /// Why.
+        error: PropertyError,
+    },
+    /// A property cannot be solved.
+    #[error("{property}: {error}")]
+    Solve {
+        /// The property.
+        property: String,
+        /// Why.
+        error: SolveError,
+    },
+    /// A policy takes an action that its model does not have.
+    #[error("{side}: the policy takes \"{action}\" in state {state}; expected a choice of that state")]
+    Action {
+        /// The side with the policy.
+        side: String,
+        /// The state.
+        state: u32,
+        /// The action.
+        action: String,
+    },
+    /// What a strategy leaves of a model is no model.
+    #[error("the engine's strategy: {error}")]
+    Strategy {
+        /// Why.
+        error: crate::model::ImdpError,
+    },
+    /// There is no model to make a reference of.
+    #[error("{path}: found no model; a reference is made of a run directory or a model file")]
+    NoModel {
+        /// The path.
+        path: String,
+    },
+    /// The two sides have no part in common.
+    #[error("{left} and {right} have nothing in common that could be compared: {notes}")]
+    NothingInCommon {
+        /// The left side.
+        left: String,
+        /// The right side.
+        right: String,
+        /// What only one of them has.
+        notes: String,
+    },
+}
+
+impl CompareError {
+    /// Whether the system failed rather than the input.
+    pub fn is_io(&self) -> bool {
+        let missing = |error: &io::Error| error.kind() == io::ErrorKind::NotFound;
+        match self {
+            Self::Io { error, .. } | Self::Import(ImportError::Io { source: error, .. }) => !missing(error),
+            Self::Import(ImportError::Native { error: NativeError::Io(error), .. }) => !missing(error),
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! Finding out what a path holds.
+
+use super::{CompareError, PolicyFile, Record, RecordedResult, Reference, Sizes, Values};
+use crate::formats::Format;
+use crate::property::{Property, parse_properties};
+use serde::Deserialize;
+use serde_json::Value;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The files of a directory that are looked for.
+const FILES: &str = "model.dynabs, model.tra, results.json, values.txt or policy.txt";
+
+/// Opens a run directory, the stem or `.tra` of explicit files, a native model, results or a reference.
+///
+/// # Errors
+/// [`CompareError`] if nothing is there, or something malformed.
+pub fn open(path: &Path) -> Result<Record, CompareError> {
+    let name = path.display().to_string();
+    let explicit = PathBuf::from(format!("{name}.tra"));
+    let mut record = if path.is_dir() {
+        open_directory(path)?
+    } else if !path.exists() && explicit.exists() {
+        open_model(&explicit)?
+    } else if !path.exists() {
+        return Err(CompareError::Missing { path: name });
+    } else {
+        match path.extension().and_then(|extension| extension.to_str()) {
+            _ if Format::of_path(path).is_some() => open_model(path)?,
+            Some("json") => open_json(path)?,
+            _ => {
+                let expected = "a directory, or a file that ends in .tra, .drn, .umb, .dynabs or .json";
+                return Err(CompareError::Unusable { path: name, found: "another file".into(), expected });
+            }
+        }
+    };
+    if record.title.is_empty() {
+        record.title.clone_from(&name);
+    }
+    record.name = name;
+    Ok(record)
+}
+
+fn open_directory(directory: &Path) -> Result<Record, CompareError> {
+    collect(directory)?.ok_or_else(|| CompareError::Unusable {
+        path: directory.display().to_string(),
+        found: "none of the files of a run".into(),
+        expected: FILES,
+    })
+}
+
+/// What the model, the results, the values and the policy of a directory say; `None` if it has none of them.
+///
+/// # Errors
+/// [`CompareError`] if one of them is malformed.
+pub fn collect(directory: &Path) -> Result<Option<Record>, CompareError> {
+    let at = |name: &str| Some(directory.join(name)).filter(|path| path.exists());
+    let model = at("model.dynabs").or_else(|| at("model.tra"));
+    let mut record = model.as_deref().map(open_model).transpose()?.unwrap_or_default();
+    let mut found = model.is_some();
+    if let Some(path) = at("results.json") {
+        let results = open_json(&path)?;
+        record.results = results.results;
+        record.sizes = record.sizes.or(results.sizes);
+        found = true;
+    }
+    if let Some(path) = at("values.txt") {
+        record.values = Some(parse_values(&path, &read(&path)?)?);
+        found = true;
+    }
+    if let Some(path) = at("policy.txt") {
+        let policy = PolicyFile::parse(&read(&path)?);
+        record.policy = Some(policy.map_err(|(line, found)| CompareError::Unusable {
+            path: format!("{}:{line}", path.display()),
+            found: format!("\"{found}\""),
+            expected: "`state=action` or `state,step=action`, each state and step once",
+        })?);
+        found = true;
+    }
+    Ok(found.then_some(record))
+}
+
+/// A model and the properties beside it.
+fn open_model(path: &Path) -> Result<Record, CompareError> {
+    let format = Format::of_path(path).unwrap_or(Format::Prism);
+    let imported = format.import(path, &mut |_| {})?;
+    let warnings = imported.warnings.iter().map(|warning| format!("{}: {warning}", path.display())).collect();
+    let model = imported.model;
+    let beside = path.with_extension("props");
+    let properties = if beside.exists() { read_properties(&beside)? } else { vec![] };
+    Ok(Record { notes: warnings, ..Record::of_model("", model, properties) })
+}
+
+fn read_properties(path: &Path) -> Result<Vec<Property>, CompareError> {
+    let refuse = |error| CompareError::Properties { path: path.display().to_string(), error };
+    parse_properties(&read(path)?).map_err(refuse)
+}
+
+/// What `dynabs-check solve --json` prints, as far as it is compared.
+#[derive(Deserialize)]
+struct ResultsFile {
+    states: Option<u64>,
+    choices: Option<u64>,
+    transitions: Option<u64>,
+    results: Vec<RecordedResult>,
+}
+
+fn open_json(path: &Path) -> Result<Record, CompareError> {
+    const EXPECTED: &str = "results of `dynabs-check solve --json` or a reference file";
+    let text = read(path)?;
+    let value: Value = parse(path, &text, EXPECTED)?;
+    if !Reference::is_one(&value) {
+        let file: ResultsFile = parse(path, &text, EXPECTED)?;
+        let sizes = match (file.states, file.choices, file.transitions) {
+            (Some(states), Some(choices), Some(transitions)) => {
+                Some(Sizes { states, choices, transitions, rows: None, entries: None })
+            }
+            _ => None,
+        };
+        return Ok(Record { sizes, results: file.results, ..Record::default() });
+    }
+    let reference: Reference = parse(path, &text, EXPECTED)?;
+    reference.check().map_err(|found| unusable(path, found, "a complete reference file of version 1"))?;
+    Ok(reference.into())
+}
+
+impl From<Reference> for Record {
+    fn from(reference: Reference) -> Self {
+        Self {
+            name: reference.name.clone(),
+            title: reference.name,
+            sizes: Some(reference.sizes),
+            digest: Some(reference.model),
+            results: reference.results,
+            values: Some(reference.values).filter(|values| !values.is_empty()).map(Values::Numbers),
+            ..Self::default()
+        }
+    }
+}
+
+fn parse_values(path: &Path, text: &str) -> Result<Values, CompareError> {
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    let is_verdict = |line: &&str| ["true", "false", "undecided"].contains(line);
+    if !lines.is_empty() && lines.iter().all(is_verdict) {
+        return Ok(Values::Verdicts(lines.into_iter().map(str::to_owned).collect()));
+    }
+    let numbers = (1..).zip(&lines).map(|(number, line)| {
+        line.parse().map_err(|_| CompareError::Unusable {
+            path: format!("{}:{number}", path.display()),
+            found: format!("\"{line}\""),
+            expected: "a number in every line, or true, false or undecided in every line",
+        })
+    });
+    numbers.collect::<Result<_, _>>().map(Values::Numbers)
+}
+
+fn parse<T: serde::de::DeserializeOwned>(
+    path: &Path,
+    text: &str,
+    expected: &'static str,
+) -> Result<T, CompareError> {
+    serde_json::from_str(text).map_err(|error| unusable(path, error.to_string(), expected))
+}
+
+fn unusable(path: &Path, found: String, expected: &'static str) -> CompareError {
+    CompareError::Unusable { path: path.display().to_string(), found, expected }
+}
+
+fn read(path: &Path) -> Result<String, CompareError> {
+    fs::read_to_string(path).map_err(|error| match error.kind() {
+        io::ErrorKind::InvalidData => unusable(path, "bytes that are not text".into(), "a text file"),
+        _ => CompareError::Io { path: path.display().to_string(), error },
+    })
+}

@@ -1,0 +1,54 @@
+//! The distinct rows that some state uses.
+
+use crate::model::{IntervalMdp, Row, RowId, StateId};
+use sha2::{Digest, Sha256};
+use std::collections::HashMap;
+
+/// The distinct rows that some state uses, in the order of their first use.
+///
+/// Unlike a model's own rows these do not depend on how it was stored: readers of explicit files merge
+/// equal rows and never see unused ones.
+pub(super) struct UsedRows {
+    /// One row of the model for each.
+    pub rows: Vec<RowId>,
+    /// The state and the index of the choice in which each is used first.
+    pub first_use: Vec<(StateId, u32)>,
+    /// For every row of the model, which of these it is; `u32::MAX` if it is not used.
+    pub index: Vec<u32>,
+}
+
+impl UsedRows {
+    pub(super) fn new(model: &IntervalMdp) -> Self {
+        let mut used = Self { rows: vec![], first_use: vec![], index: vec![u32::MAX; model.rows().len()] };
+        let mut known: HashMap<[u8; 32], u32> = HashMap::new();
+        for state in 0..model.num_states() as StateId {
+            for (choice, row) in (0..).zip(model.choices().rows(state)) {
+                if used.index[row as usize] != u32::MAX {
+                    continue;
+                }
+                used.index[row as usize] =
+                    *known.entry(content(model.rows().row(row))).or_insert_with(|| {
+                        used.rows.push(row);
+                        used.first_use.push((state, choice));
+                        used.rows.len() as u32 - 1
+                    });
+            }
+        }
+        used
+    }
+
+    /// The number of entries of these rows.
+    pub(super) fn entries(&self, model: &IntervalMdp) -> u64 {
+        self.rows.iter().map(|&row| model.rows().row_len(row) as u64).sum()
+    }
+}
+
+fn content(row: Row<'_>) -> [u8; 32] {
+    let mut hash = Sha256::new();
+    for ((successor, lower), upper) in row.successors.iter().zip(row.lower).zip(row.upper) {
+        hash.update(successor.to_le_bytes());
+        hash.update(lower.to_le_bytes());
+        hash.update(upper.to_le_bytes());
+    }
+    hash.finalize().into()
+}

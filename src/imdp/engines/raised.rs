@@ -1,0 +1,24 @@
+//! Models that engines accept: without lower bounds of 0.
+
+use crate::formats::prism::RAISED_LOWER_BOUND;
+use crate::model::{ImdpError, IntervalMdp, Rows};
+
+/// The model with every lower bound of 0 raised to [`RAISED_LOWER_BOUND`], as `model.tra` has it; `None` if there
+/// are no such bounds.
+///
+/// # Errors
+/// Those of [`IntervalMdp::new`]; none, if `model` is an interval MDP.
+pub fn raised(model: &IntervalMdp) -> Result<Option<IntervalMdp>, ImdpError> {
+    if model.rows().iter().all(|row| row.lower.iter().all(|&lower| lower > 0.0)) {
+        return Ok(None);
+    }
+    let mut rows = Rows::with_capacity(model.rows().len(), model.rows().num_entries());
+    for row in model.rows().iter() {
+        for ((&successor, &lower), &upper) in row.successors.iter().zip(row.lower).zip(row.upper) {
+            let lower = if lower == 0.0 { RAISED_LOWER_BOUND } else { lower };
+            rows.push_entry(successor, lower, upper.max(lower));
+        }
+        rows.finish_row();
+    }
+    model.with_rows(rows).map(Some)
+}

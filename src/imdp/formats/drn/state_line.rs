@@ -1,0 +1,134 @@
+//! What is said of a state besides its choices.
+
+use super::header::{Header, read_name};
+use crate::formats::import::{Cursor, Fault, read_variable_value};
+use crate::model::{Labels, StateId, StateSet, StateVariables, VariableValues};
+use std::collections::HashMap;
+
+/// Labels, values of variables and deadlocks of the states so far.
+#[derive(Debug)]
+pub(super) struct StateNotes {
+    states: usize,
+    /// For how many states to make room.
+    room: usize,
+    initial: StateSet,
+    labels: Vec<(String, StateSet)>,
+    ids: HashMap<String, usize>,
+    names: Vec<String>,
+    columns: Vec<VariableValues>,
+    /// How many states have values.
+    valued: usize,
+    /// The last state that is marked as one without choices, and how many there are.
+    deadlock: Option<StateId>,
+    deadlocks: u64,
+}
+
+impl StateNotes {
+    /// Nothing but what the header declares; sets have room for no more states than `fit` in the file.
+    pub(super) fn new(header: &Header, fit: u64) -> Self {
+        let mut notes = Self {
+            states: header.states as usize,
+            room: header.states.min(fit) as usize,
+            initial: StateSet::new(),
+            labels: vec![],
+            ids: HashMap::new(),
+            names: header.variables.clone(),
+            columns: vec![],
+            valued: 0,
+            deadlock: None,
+            deadlocks: 0,
+        };
+        for name in &header.labels {
+            notes.label(name.clone());
+        }
+        notes
+    }
+
+    fn label(&mut self, name: String) -> &mut StateSet {
+        if name == "init" {
+            return &mut self.initial;
+        }
+        let next = self.labels.len();
+        let id = *self.ids.entry(name.clone()).or_insert(next);
+        if id == next {
+            self.labels.push((name, StateSet::new()));
+        }
+        &mut self.labels[id].1
+    }
+
+    /// Reads a comment that says something of `state`.
+    pub(super) fn read(&mut self, state: Option<StateId>, cursor: &mut Cursor<'_>) -> Result<(), Box<Fault>> {
+        let Some(state) = state else { return Ok(()) };
+        if cursor.skip(b"deadlock") {
+            cursor.line_end("the end of the line")?;
+            self.deadlocks += u64::from(self.deadlock.replace(state) != Some(state));
+            return Ok(());
+        }
+        if !cursor.skip(b"values") {
+            return Ok(());
+        }
+        if self.valued != state as usize || self.names.is_empty() {
+            return Err(cursor.fault_at(0, "values of declared variables, once and for every state"));
+        }
+        for variable in 0..self.names.len() {
+            cursor.expect(b' ', "one blank and the value of the next variable")?;
+            read_variable_value(cursor, state as usize, variable, self.room, &mut self.columns)?;
+        }
+        self.valued += 1;
+        cursor.line_end("the end of the line")
+    }
+
+    /// Whether a state is marked as one without choices.
+    pub(super) fn is_deadlock(&self, state: StateId) -> bool {
+        self.deadlock == Some(state)
+    }
+
+    /// How many states are marked as ones without choices.
+    pub(super) fn deadlocks(&self) -> u64 {
+        self.deadlocks
+    }
+
+    /// The initial states, the labels, and the variables or the first state without values.
+    pub(super) fn finish(mut self) -> (StateSet, Labels, Result<StateVariables, usize>) {
+        self.initial.grow(self.states);
+        let mut labels = Labels::default();
+        for (name, mut set) in self.labels {
+            set.grow(self.states);
+            labels.insert(name, set);
+        }
+        let mut variables = StateVariables::default();
+        if !self.names.is_empty() && self.valued != self.states {
+            return (self.initial, labels, Err(self.valued));
+        }
+        for (name, mut values) in self.names.into_iter().zip(self.columns) {
+            if let VariableValues::Bool(set) = &mut values {
+                set.grow(self.states);
+            }
+            variables.push(name, values);
+        }
+        (self.initial, labels, Ok(variables))
+    }
+}
+
+/// Reads the labels of a state up to the end of the line.
+pub(super) fn read_labels(
+    cursor: &mut Cursor<'_>,
+    state: StateId,
+    notes: &mut StateNotes,
+) -> Result<(), Box<Fault>> {
+    while !cursor.at_line_end() {
+        cursor.expect(b' ', "one blank and a label")?;
+        match cursor.peek() {
+            b'[' => return Err(cursor.fault_here("no rewards, which are not supported")),
+            b'!' | b'{' => return Err(cursor.fault_here("a label: rates and observations are not supported")),
+            _ => {}
+        }
+        let start = cursor.offset();
+        let set = notes.label(read_name(cursor)?);
+        set.grow(state as usize + 1);
+        if set.put(state as usize) {
+            return Err(cursor.fault_at(start, "every label of a state once"));
+        }
+    }
+    Ok(())
+}

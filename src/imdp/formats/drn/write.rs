@@ -1,0 +1,205 @@
+//! Writing DRN: streamed from shared rows, whose text is rendered once.
+
+use super::UNNAMED;
+use crate::formats::names::{NameError, NameRule, is_identifier};
+use crate::model::{ActionNames, IntervalMdp, ModelKind, RowId, StateId, StateSet};
+use crate::numeric::shortest_decimal;
+use crate::progress::Progress;
+use std::convert::Infallible;
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+/// Text is handed on in pieces of about this many bytes.
+const PIECE: usize = 1 << 20;
+
+const LABELS: NameRule = NameRule {
+    format: "DRN",
+    expected: "a name without quotation marks and control characters",
+    accepts: |name| !name.is_empty() && !name.contains(|c: char| c == '"' || c.is_control()),
+};
+
+const ACTIONS: NameRule = NameRule {
+    format: "DRN",
+    expected: "a name without blanks and control characters other than __NOLABEL__",
+    accepts: |name| {
+        let unfit = |c: char| c.is_whitespace() || c.is_control();
+        !name.is_empty() && name != UNNAMED && !name.contains(unfit)
+    },
+};
+
+/// Writes a model in Storm's DRN format.
+#[derive(Debug)]
+pub struct DrnWriter<'a> {
+    model: &'a IntervalMdp,
+    /// The initial states, then the labels with states, as they are printed.
+    labels: Vec<(String, &'a StateSet)>,
+    rows: RowTexts,
+    bytes: u64,
+}
+
+/// Per row, the lines of its transitions.
+#[derive(Debug)]
+struct RowTexts {
+    text: Vec<u8>,
+    ends: Vec<usize>,
+}
+
+impl RowTexts {
+    fn render(model: &IntervalMdp) -> Self {
+        let mut texts = Self { text: vec![], ends: vec![] };
+        for row in model.rows().iter() {
+            for ((successor, &lower), &upper) in row.successors.iter().zip(row.lower).zip(row.upper) {
+                let line =
+                    format!("\t\t{successor} : [{}, {}]\n", shortest_decimal(lower), shortest_decimal(upper));
+                texts.text.extend_from_slice(line.as_bytes());
+            }
+            texts.ends.push(texts.text.len());
+        }
+        texts
+    }
+
+    fn row(&self, row: RowId) -> &[u8] {
+        let row = row as usize;
+        &self.text[row.checked_sub(1).map_or(0, |before| self.ends[before])..self.ends[row]]
+    }
+}
+
+impl<'a> DrnWriter<'a> {
+    /// Prepares to write `model`: renders its rows and computes the exact size of the file.
+    ///
+    /// # Errors
+    /// [`NameError`] if a label or an action has a name that DRN cannot express.
+    pub fn new(model: &'a IntervalMdp) -> Result<Self, NameError> {
+        LABELS.check_labels(model)?;
+        ACTIONS.check_actions(model)?;
+        let declared = model.labels().iter().filter(|(name, _)| *name != "init");
+        let labels = std::iter::once(("init", model.initial())).chain(declared);
+        let labels = labels.map(|(name, states)| (quoted(name), states)).collect();
+        let mut writer = Self { model, labels, rows: RowTexts::render(model), bytes: 0 };
+        let mut bytes = 0;
+        let Ok(()) = writer.pieces(|piece| {
+            bytes += piece.len() as u64;
+            Ok::<(), Infallible>(())
+        });
+        writer.bytes = bytes;
+        Ok(writer)
+    }
+
+    /// The size of the file in bytes.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write(&self, out: &mut impl Write, progress: &dyn Progress) -> io::Result<()> {
+        let mut text = Vec::with_capacity(2 * PIECE);
+        self.pieces(|piece| {
+            text.extend_from_slice(piece);
+            if text.len() < PIECE {
+                return Ok(());
+            }
+            if progress.is_interrupted() {
+                return Err(io::Error::other("interrupted, nothing was written"));
+            }
+            out.write_all(&text)?;
+            progress.advance(text.len() as u64);
+            text.clear();
+            Ok(())
+        })?;
+        out.write_all(&text)?;
+        progress.advance(text.len() as u64);
+        Ok(())
+    }
+
+    /// Hands on the file piece by piece.
+    fn pieces<E>(&self, mut take: impl FnMut(&[u8]) -> Result<(), E>) -> Result<(), E> {
+        take(self.header().as_bytes())?;
+        let choices = self.model.choices();
+        let mut choice = 0;
+        let mut text = String::new();
+        for state in 0..self.model.num_states() as StateId {
+            text.clear();
+            self.state_lines(state, &mut text);
+            take(text.as_bytes())?;
+            if choices.ranges(state).is_empty() {
+                let name =
+                    if choices.is_absorbing(state) { self.action(choice, 0, None) } else { UNNAMED.into() };
+                take(format!("\taction {name}\n\t\t{state} : [1, 1]\n").as_bytes())?;
+                choice += u64::from(choices.is_absorbing(state));
+            }
+            for (index, row) in choices.rows(state).enumerate() {
+                text.clear();
+                // Writing to a string cannot fail.
+                let _ = writeln!(text, "\taction {}", self.action(choice, index, Some(row)));
+                take(text.as_bytes())?;
+                take(self.rows.row(row))?;
+                choice += 1;
+            }
+        }
+        Ok(())
+    }
+
+    fn header(&self) -> String {
+        let model = self.model;
+        let mut text = "// Written by dynabs\n".to_owned();
+        if self.labels.len() > 1 {
+            let names: Vec<_> = self.labels[1..].iter().map(|(name, _)| name.as_str()).collect();
+            let _ = writeln!(text, "//! labels {}", names.join(" "));
+        }
+        if !model.variables().is_empty() {
+            let names: Vec<_> = model.variables().iter().map(|variable| variable.name.as_str()).collect();
+            let _ = writeln!(text, "//! variables {}", names.join(" "));
+        }
+        let kind = match model.kind() {
+            ModelKind::Imdp => "MDP",
+            ModelKind::Idtmc => "DTMC",
+        };
+        let states = model.num_states();
+        let deadlocks = (0..states as StateId).filter(|&state| model.choices().is_deadlock(state)).count();
+        let choices = model.size().choices + deadlocks as u64;
+        let _ = write!(
+            text,
+            "@type: {kind}\n@value_type: double-interval\n@parameters\n\n@reward_models\n\n@nr_states\n{states}\n\
+             @nr_choices\n{choices}\n@model\n"
+        );
+        text
+    }
+
+    /// Appends what stands before the choices of a state.
+    fn state_lines(&self, state: StateId, text: &mut String) {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "state {state}");
+        for (name, states) in &self.labels {
+            if states.contains(state as usize) {
+                let _ = write!(text, " {name}");
+            }
+        }
+        text.push('\n');
+        if !self.model.variables().is_empty() {
+            text.push_str("//! values");
+            for variable in self.model.variables().iter() {
+                text.push(' ');
+                let _ = variable.write_value(state, text);
+            }
+            text.push('\n');
+        }
+        if self.model.choices().is_deadlock(state) {
+            text.push_str("//! deadlock\n");
+        }
+    }
+
+    fn action(&self, choice: u64, index: usize, row: Option<RowId>) -> String {
+        match self.model.actions() {
+            ActionNames::None => index.to_string(),
+            names => names.name(choice, row).map_or_else(|| UNNAMED.to_owned(), Into::into),
+        }
+    }
+}
+
+/// A label as it is printed: in quotation marks unless it is an identifier.
+fn quoted(name: &str) -> String {
+    if is_identifier(name) { name.to_owned() } else { format!("\"{name}\"") }
+}

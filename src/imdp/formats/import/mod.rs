@@ -1,0 +1,36 @@
+//! What reading a model has in common in all formats: errors with positions, numbers as they are written, rows
+//! that are checked and stored once.
+
+mod assembly;
+mod bounds;
+mod decimal;
+mod error;
+mod exact_sum;
+mod interval;
+mod lines;
+mod pending_row;
+mod row_table;
+mod text;
+mod variables;
+
+pub(in crate::formats) use assembly::{Assembly, AssemblyError, Expected, Transitions};
+pub(in crate::formats) use bounds::{Judgement, written_bounds};
+pub(in crate::formats) use error::Fault;
+pub use error::{ImportError, Place, Position, Warning};
+pub(in crate::formats) use interval::read_interval;
+pub(in crate::formats) use lines::Lines;
+pub(in crate::formats) use pending_row::{PendingRow, RowFault};
+pub(in crate::formats) use row_table::hash_row;
+pub(in crate::formats) use text::{Cursor, counted, describe};
+pub(in crate::formats) use variables::read_variable_value;
+
+use crate::model::IntervalMdp;
+
+/// A model read from a file.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// The model.
+    pub model: IntervalMdp,
+    /// What was accepted although it deserves a look, at most one warning of each kind.
+    pub warnings: Vec<Warning>,
+}

@@ -1,0 +1,113 @@
+//! Writing a model in any format.
+
+use super::drn::DrnWriter;
+use super::names::NameError;
+use super::prism::{MAX_COUNT, TraWriter, check_names, write_lab, write_sta};
+use super::umb::{Compression, UmbWriter};
+use super::{Format, native};
+use crate::model::IntervalMdp;
+use crate::progress::Progress;
+use std::io::{self, Write};
+
+/// Writes a model in one of the formats, one file after the other.
+#[derive(Debug)]
+pub struct ModelWriter<'a> {
+    model: &'a IntervalMdp,
+    format: FormatWriter<'a>,
+}
+
+#[derive(Debug)]
+enum FormatWriter<'a> {
+    Native,
+    Prism(TraWriter<'a>),
+    Drn(DrnWriter<'a>),
+    Umb(Box<UmbWriter<'a>>, Compression),
+}
+
+/// Why a model cannot be written in a format.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum WriteError {
+    /// It has a name that the format cannot express.
+    #[error(transparent)]
+    Name(#[from] NameError),
+    /// It is beyond what PRISM reads.
+    #[error(
+        "the model has {states} states, {choices} choices and {transitions} transitions; expected at most {MAX_COUNT} of \
+         each, which is what PRISM reads"
+    )]
+    TooLargeForPrism {
+        /// The number of states.
+        states: u64,
+        /// The number of choices.
+        choices: u64,
+        /// The number of transitions.
+        transitions: u64,
+    },
+}
+
+impl<'a> ModelWriter<'a> {
+    /// Prepares to write `model`; `compression` is that of UMB.
+    ///
+    /// # Errors
+    /// [`WriteError`] if the format cannot express the model.
+    pub fn new(model: &'a IntervalMdp, format: Format, compression: Compression) -> Result<Self, WriteError> {
+        let format = match format {
+            Format::Native => FormatWriter::Native,
+            Format::Drn => FormatWriter::Drn(DrnWriter::new(model)?),
+            Format::Umb => FormatWriter::Umb(Box::new(UmbWriter::new(model)?), compression),
+            Format::Prism => {
+                check_names(model)?;
+                let size = model.size();
+                if size.states.max(size.choices).max(size.transitions) > MAX_COUNT {
+                    return Err(WriteError::TooLargeForPrism {
+                        states: size.states,
+                        choices: size.choices,
+                        transitions: size.transitions,
+                    });
+                }
+                FormatWriter::Prism(TraWriter::new(model))
+            }
+        };
+        Ok(Self { model, format })
+    }
+
+    /// The extensions of the files, the largest one first.
+    pub fn extensions(&self) -> &'static [&'static str] {
+        match self.format {
+            FormatWriter::Native => &["dynabs"],
+            FormatWriter::Prism(_) => &["tra", "sta", "lab"],
+            FormatWriter::Drn(_) => &["drn"],
+            FormatWriter::Umb(..) => &["umb"],
+        }
+    }
+
+    /// The size of the largest file in bytes, before compression; 0 if it is small anyway.
+    pub fn bytes(&self) -> u64 {
+        match &self.format {
+            FormatWriter::Native => 0,
+            FormatWriter::Prism(writer) => writer.bytes(),
+            FormatWriter::Drn(writer) => writer.bytes(),
+            FormatWriter::Umb(writer, _) => writer.bytes(),
+        }
+    }
+
+    /// Writes the file with one of the [`extensions`](Self::extensions).
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write(
+        &self,
+        extension: &str,
+        out: &mut (impl Write + Send),
+        progress: &dyn Progress,
+    ) -> io::Result<()> {
+        match (&self.format, extension) {
+            (FormatWriter::Native, _) => native::write(self.model, out),
+            (FormatWriter::Prism(_), "sta") => write_sta(self.model, out),
+            (FormatWriter::Prism(_), "lab") => write_lab(self.model, out),
+            (FormatWriter::Prism(writer), _) => writer.write(out, progress),
+            (FormatWriter::Drn(writer), _) => writer.write(out, progress),
+            (FormatWriter::Umb(writer, compression), _) => writer.write(out, *compression, progress),
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! Interval Markov decision processes: read, solved soundly, proved, compared.
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`model`] | an [`IntervalMdp`](model::IntervalMdp): choices that share rows of intervals |
+//! | [`property`] | PRISM's property language, as far as it speaks of interval models |
+//! | [`formats`] | PRISM's explicit files, DRN, UMB and a native format, read and written |
+//! | [`solver`] | robust value iteration with bounds from both sides, policies |
+//! | [`certificate`], [`verify`] | what proves a result, and the checker in exact arithmetic |
+//! | [`compare`] | what differs between two runs |
+//! | [`engines`] | PRISM and Storm, asked the same questions |
+//!
+//! Nothing here knows of control. The solver fills in certificates, the checker reads them, and neither
+//! knows the other.
+
+pub mod certificate;
+pub mod compare;
+pub mod engines;
+mod exact;
+pub mod formats;
+pub mod model;
+pub mod numeric;
+pub mod progress;
+pub mod property;
+pub mod solver;
+pub mod verify;

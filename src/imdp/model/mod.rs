@@ -1,0 +1,26 @@
+//! Interval Markov decision processes with shared rows.
+//!
+//! In state `s` a policy picks a choice; nature then picks a distribution `p` with `l ≤ p ≤ u` from the
+//! row of that choice. Compiled models use one row in thousands of states, so a state holds *ranges of
+//! row ids* and rows are stored once: memory follows rows, not transitions.
+
+mod choices;
+mod interval_mdp;
+mod labels;
+mod memory;
+mod restrict;
+mod rows;
+
+pub use choices::{Choices, ChoicesBuilder, RowRange};
+pub use fixedbitset::FixedBitSet as StateSet;
+pub use interval_mdp::{ActionNames, ImdpError, IntervalMdp, ModelKind, Parts, Size};
+pub use labels::{Labels, StateVariable, StateVariables, VariableValues};
+pub use memory::{MemoryError, available_memory, require_memory};
+pub use restrict::restrict;
+pub use rows::{Row, RowError, Rows};
+
+/// A state of an interval MDP, numbered from 0.
+pub type StateId = u32;
+
+/// A row of an interval MDP, numbered from 0.
+pub type RowId = u32;

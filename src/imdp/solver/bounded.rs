@@ -1,0 +1,209 @@
+//! Step-bounded until, and next: value iteration with bounds on both sides.
+//!
+//! `V_0 = 1_goal`, `V_{k+1}(s) = opt_a opt_p p·V_k` for safe states that are not goal states.
+
+use super::evidence::Recorder;
+use super::expectation::Side;
+use super::options::Control;
+use super::policy::{NO_CHOICE, first_choice};
+use super::query::{Optimum, Players};
+use super::range_optimum::RangeOptimum;
+use super::sweep::Sweep;
+use super::{Policy, Solution, SolveError, SolverOptions, Status, ValueBounds};
+use crate::certificate::Evidence;
+use crate::model::{IntervalMdp, StateId, StateSet};
+
+/// The value of `safe U<=steps goal`.
+pub(super) fn until(
+    model: &IntervalMdp,
+    (safe, goal, steps): (&StateSet, &StateSet, u64),
+    players: Players,
+    options: &SolverOptions<'_>,
+) -> Result<Solution, SolveError> {
+    let choices = model.choices();
+    let moving = |&s: &StateId| {
+        safe.contains(s as usize) && !goal.contains(s as usize) && !choices.ranges(s).is_empty()
+    };
+    let states: Vec<StateId> = (0..model.num_states() as StateId).filter(moving).collect();
+    let mut iteration = Iteration::new(model, players, states, goal, options);
+    let mut control = Control::new(options);
+    let mut status = Status::HorizonReached;
+    while control.iterations < steps {
+        if let Some(reason) = control.stop() {
+            status = reason;
+            break;
+        }
+        let changed = iteration.step(control.iterations + 1)?;
+        control.done(iteration.gap);
+        if !changed {
+            break;
+        }
+    }
+    if status != Status::HorizonReached {
+        iteration.give_up_upper();
+    }
+    Ok(iteration.finish(steps, status, control.iterations))
+}
+
+/// The value of `X goal`.
+pub(super) fn next(
+    model: &IntervalMdp,
+    goal: &StateSet,
+    players: Players,
+    options: &SolverOptions<'_>,
+) -> Result<Solution, SolveError> {
+    let moving = |&s: &StateId| !model.choices().ranges(s).is_empty();
+    let states: Vec<StateId> = (0..model.num_states() as StateId).filter(moving).collect();
+    let mut iteration = Iteration::new(model, players, states, goal, options);
+    // `X` is no `U<=1`: a goal state may be left at once.
+    iteration.monotone = false;
+    iteration.step(1)?;
+    Ok(iteration.finish(1, Status::HorizonReached, 1))
+}
+
+/// 1 in the states of a set, 0 elsewhere.
+pub(super) fn indicator(set: &StateSet) -> Vec<f64> {
+    (0..set.len()).map(|s| if set.contains(s) { 1.0 } else { 0.0 }).collect()
+}
+
+struct Iteration<'a> {
+    model: &'a IntervalMdp,
+    players: Players,
+    sweep: Sweep<'a>,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+    lower_rows: RangeOptimum,
+    upper_rows: RangeOptimum,
+    results: Vec<f64>,
+    gap: f64,
+    /// Whether values can only grow from step to step.
+    monotone: bool,
+    /// The current choice of every state, if a policy is wanted, and all changes of it.
+    current: Option<Vec<u32>>,
+    changes: Vec<(StateId, u64, u32)>,
+    /// By position in `sweep.states`: whether the last step raised the lower bound.
+    raised: Vec<bool>,
+    recorder: Option<Recorder>,
+}
+
+impl<'a> Iteration<'a> {
+    fn new(
+        model: &'a IntervalMdp,
+        players: Players,
+        states: Vec<StateId>,
+        goal: &StateSet,
+        options: &SolverOptions<'_>,
+    ) -> Self {
+        let mut table = RangeOptimum::new(players.policy, model.rows().len());
+        table.prepare(model.choices(), &states);
+        let rows = model.choices().used_rows(model.rows().len(), states.iter().copied());
+        Self {
+            model,
+            players,
+            lower: indicator(goal),
+            upper: indicator(goal),
+            lower_rows: table.clone(),
+            upper_rows: table,
+            results: vec![],
+            gap: 0.0,
+            monotone: true,
+            current: (options.policy || options.evidence).then(|| vec![NO_CHOICE; model.num_states()]),
+            changes: vec![],
+            raised: vec![false; states.len()],
+            recorder: options.evidence.then(|| Recorder::new(states.len())),
+            sweep: Sweep::new(model, players, states, &rows),
+        }
+    }
+
+    /// One step; returns whether any bound changed. `left` is the number of steps left in the new values.
+    ///
+    /// # Errors
+    /// [`SolveError::Memory`] if the step cannot be recorded.
+    fn step(&mut self, left: u64) -> Result<bool, SolveError> {
+        let mut changed = false;
+        self.gap = 0.0;
+        let mut recorder = self.recorder.as_mut();
+        if let Some(recorder) = &mut recorder {
+            recorder.begin()?;
+        }
+        self.sweep.evaluate_rows(&self.lower, Side::Lower, &mut self.lower_rows);
+        self.sweep.evaluate_rows(&self.upper, Side::Upper, &mut self.upper_rows);
+        self.sweep.evaluate_states(&self.lower_rows, &mut self.results);
+        for (i, (&s, &value)) in self.sweep.states.iter().zip(&self.results).enumerate() {
+            let old = &mut self.lower[s as usize];
+            self.raised[i] = value > *old;
+            // The exact values do not decrease, so a decrease is rounding only.
+            let value = if self.monotone { value.max(*old) } else { value };
+            if value != *old {
+                changed = true;
+                *old = value;
+                if let Some(recorder) = &mut recorder {
+                    recorder.lower(s, value);
+                }
+            }
+        }
+        self.sweep.evaluate_states(&self.upper_rows, &mut self.results);
+        for (&s, &value) in self.sweep.states.iter().zip(&self.results) {
+            let old = &mut self.upper[s as usize];
+            if value != *old {
+                changed = true;
+                *old = value;
+                if let Some(recorder) = &mut recorder {
+                    recorder.upper(s, value);
+                }
+            }
+            self.gap = self.gap.max(value - self.lower[s as usize]);
+        }
+        if let Some(recorder) = recorder {
+            recorder.end();
+        }
+        self.update_policy(left);
+        Ok(changed)
+    }
+
+    /// Replaces the choices that are no longer optimal on the side that the policy must guarantee.
+    ///
+    /// A maximising policy keeps its choice where the lower bound is not raised: that bound was reached by it,
+    /// and what now looks better may do so by rounding only.
+    fn update_policy(&mut self, left: u64) {
+        let Some(current) = &mut self.current else { return };
+        let optimum = self.players.policy;
+        let table = if optimum == Optimum::Max { &self.lower_rows } else { &self.upper_rows };
+        let (choices, weights) = (self.model.choices(), table.values());
+        for (&s, &raised) in self.sweep.states.iter().zip(&self.raised) {
+            let now = &mut current[s as usize];
+            if optimum == Optimum::Max && !raised && *now != NO_CHOICE {
+                continue;
+            }
+            let best = table.best(choices.ranges(s));
+            let keep = choices
+                .row_of_choice(s, *now)
+                .is_some_and(|row| !optimum.prefers(best, weights[row as usize]));
+            if !keep && let Some(choice) = first_choice(choices, s, |row| weights[row as usize] == best) {
+                *now = choice;
+                self.changes.push((s, left, choice));
+            }
+        }
+    }
+
+    /// Replaces the upper bounds, which do not hold for further steps, by 1.
+    fn give_up_upper(&mut self) {
+        for &s in &self.sweep.states {
+            self.upper[s as usize] = 1.0;
+        }
+        if let Some(recorder) = &mut self.recorder {
+            recorder.give_up_upper(&self.sweep.states);
+        }
+    }
+
+    fn finish(self, steps: u64, status: Status, iterations: u64) -> Solution {
+        let states = self.model.num_states();
+        Solution {
+            values: ValueBounds { lower: self.lower, upper: self.upper },
+            status,
+            iterations,
+            policy: self.current.is_some().then(|| Policy::time_varying(steps, states, &self.changes)),
+            evidence: self.recorder.map(|recorder| Evidence::Steps(recorder.finish(&self.changes))),
+        }
+    }
+}

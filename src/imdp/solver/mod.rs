@@ -1,0 +1,73 @@
+//! Robust value iteration.
+//!
+//! The value of `safe U goal` in an interval MDP is the least solution of
+//!
+//! `V(s) = 1` in goal states, `V(s) = opt_a opt_p p·V` in other safe states, `V(s) = 0` elsewhere,
+//!
+//! where the policy picks a choice `a` and nature a distribution `p` within the intervals of its row.
+//! States without rows stay where they are. [`solve`] brackets it from both sides, for all four ways of
+//! resolving the two nondeterminisms, with and without a bound on the number of steps:
+//!
+//! - with a bound, by that many steps rounded down and up (`bounded`);
+//! - without, by deciding exactly where the value is 0 or 1 (`graph`), then part by part from below, and
+//!   from above by values that the operator does not raise (`unbounded`).
+//!
+//! Bounds of rows are read as the shortest decimals that give the doubles. Without a step bound the value
+//! can jump with the last digit (whether upper bounds sum to 1 decides whether nature can stay for ever),
+//! so there the decimals are the model; step-bounded results hold for the doubles taken literally as well.
+//!
+//! Both bounds hold whenever and however the computation ends; [`Status`] tells how it ended.
+
+mod answer;
+mod bounded;
+mod component;
+mod evidence;
+mod expectation;
+mod extrapolate;
+mod graph;
+mod guess;
+mod options;
+mod policy;
+mod prune;
+mod query;
+mod range_optimum;
+mod solution;
+mod sweep;
+mod unbounded;
+
+pub use answer::{Answer, AnswerError};
+pub use expectation::worst_expectations;
+pub use options::{SolverOptions, Status};
+pub use policy::Policy;
+pub use prune::{PruneError, Pruned};
+pub use query::{Query, SolveError};
+pub use solution::{Solution, ValueBounds};
+
+use crate::model::IntervalMdp;
+use crate::property::Resolution;
+
+/// Bounds on the value of a query in every state.
+///
+/// # Errors
+/// [`SolveError`] if a set does not fit the model or `epsilon` is not positive. How a computation ended
+/// is not an error but the [`Status`] of the solution.
+pub fn solve(
+    model: &IntervalMdp,
+    query: &Query<'_>,
+    resolution: Resolution,
+    options: &SolverOptions<'_>,
+) -> Result<Solution, SolveError> {
+    query.check(model)?;
+    let epsilon = options.epsilon;
+    if epsilon.is_nan() || epsilon <= 0.0 {
+        return Err(SolveError::Epsilon { epsilon });
+    }
+    let players = resolution.into();
+    match *query {
+        Query::Next { goal } => bounded::next(model, goal, players, options),
+        Query::Until { safe, goal, steps: Some(steps) } => {
+            bounded::until(model, (safe, goal, steps), players, options)
+        }
+        Query::Until { safe, goal, steps: None } => unbounded::until(model, safe, goal, players, options),
+    }
+}

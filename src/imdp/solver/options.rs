@@ -1,0 +1,103 @@
+//! When to stop, and how it was stopped.
+
+use std::fmt;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// When a computation stops and what it reports meanwhile; threads are those of the ambient rayon pool.
+#[derive(Clone, Copy)]
+pub struct SolverOptions<'a> {
+    /// Unbounded queries stop when `upper − lower ≤ epsilon` in every state.
+    pub epsilon: f64,
+    /// The number of iterations allowed, all parts of the model together.
+    pub max_iterations: u64,
+    /// The time allowed, if limited.
+    pub time_limit: Option<Duration>,
+    /// Stops the computation when set, from a signal handler for example.
+    pub interrupt: Option<&'a AtomicBool>,
+    /// Called after every iteration with its number and the distance of the bounds (for unbounded
+    /// queries: in the part of the model being solved, 1 before its first upper bound).
+    pub progress: Option<&'a (dyn Fn(u64, f64) + Sync)>,
+    /// Whether a policy is wanted.
+    pub policy: bool,
+    /// Whether what a certificate needs is wanted, which includes the policy.
+    pub evidence: bool,
+}
+
+impl Default for SolverOptions<'_> {
+    fn default() -> Self {
+        Self {
+            epsilon: 1e-6,
+            max_iterations: u64::MAX,
+            time_limit: None,
+            interrupt: None,
+            progress: None,
+            policy: false,
+            evidence: false,
+        }
+    }
+}
+
+/// How a computation ended. The bounds are sound in every case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// All steps of a bounded query were taken, or no further step changes anything.
+    HorizonReached,
+    /// `upper − lower ≤ epsilon` in every state.
+    Converged,
+    /// Doubles are too coarse for this model and epsilon: the bounds no longer move.
+    PrecisionLimit,
+    /// The allowed number of iterations was used up.
+    IterationLimit,
+    /// The allowed time was used up.
+    TimeLimit,
+    /// The interrupt flag was set.
+    Interrupted,
+}
+
+impl fmt::Display for Status {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::HorizonReached => "horizon reached",
+            Self::Converged => "converged",
+            Self::PrecisionLimit => "precision limit",
+            Self::IterationLimit => "iteration limit",
+            Self::TimeLimit => "time limit",
+            Self::Interrupted => "interrupted",
+        })
+    }
+}
+
+/// Counts iterations and says when to stop.
+pub(super) struct Control<'a> {
+    options: &'a SolverOptions<'a>,
+    start: Instant,
+    pub iterations: u64,
+}
+
+impl<'a> Control<'a> {
+    pub(super) fn new(options: &'a SolverOptions<'a>) -> Self {
+        Self { options, start: Instant::now(), iterations: 0 }
+    }
+
+    /// Why to stop now, if so.
+    pub(super) fn stop(&self) -> Option<Status> {
+        if self.options.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+            Some(Status::Interrupted)
+        } else if self.iterations >= self.options.max_iterations {
+            Some(Status::IterationLimit)
+        } else if self.options.time_limit.is_some_and(|limit| self.start.elapsed() >= limit) {
+            Some(Status::TimeLimit)
+        } else {
+            None
+        }
+    }
+
+    /// Notes that an iteration is done.
+    pub(super) fn done(&mut self, gap: f64) {
+        self.iterations += 1;
+        if let Some(progress) = self.options.progress {
+            progress(self.iterations, gap);
+        }
+    }
+}

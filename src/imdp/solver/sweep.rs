@@ -1,0 +1,89 @@
+//! One application of the Bellman operator to a set of rows and states.
+//!
+//! `W(a) = opt_p p·V` for every row, then `V⁺(s) = opt_a W(a)` over the ranges of every state. Each row is
+//! evaluated once, however many states share it. The results do not depend on the number of threads:
+//! every value is computed from the previous values alone.
+
+use super::expectation::{RowBlock, Side};
+use super::query::Players;
+use super::range_optimum::RangeOptimum;
+use crate::model::{IntervalMdp, RowId, StateId};
+use rayon::prelude::*;
+
+/// Entries per block of rows: large enough to outweigh the hand-over to a thread.
+const BLOCK_ENTRIES: usize = 8192;
+
+/// Below this many choices, a parallel loop over states costs more than it saves.
+const PARALLEL_RANGES: usize = 32768;
+
+/// The rows and states of a part of the model, ready to be iterated.
+pub(super) struct Sweep<'a> {
+    model: &'a IntervalMdp,
+    players: Players,
+    pub states: Vec<StateId>,
+    blocks: Vec<RowBlock>,
+    many_ranges: bool,
+}
+
+impl<'a> Sweep<'a> {
+    pub(super) fn new(
+        model: &'a IntervalMdp,
+        players: Players,
+        states: Vec<StateId>,
+        rows: &[RowId],
+    ) -> Self {
+        let mut blocks = vec![];
+        let (mut block, mut entries) = (vec![], 0);
+        for &row in rows {
+            block.push(row);
+            entries += model.rows().row_len(row);
+            if entries >= BLOCK_ENTRIES {
+                blocks.push(RowBlock::new(model.rows(), std::mem::take(&mut block)));
+                entries = 0;
+            }
+        }
+        if !block.is_empty() {
+            blocks.push(RowBlock::new(model.rows(), block));
+        }
+        let ranges: usize = states.iter().map(|&s| model.choices().ranges(s).len()).sum();
+        Self { model, players, states, blocks, many_ranges: ranges >= PARALLEL_RANGES }
+    }
+
+    /// The rows, in blocks.
+    pub(super) fn rows(&self) -> impl Iterator<Item = RowId> + '_ {
+        self.blocks.iter().flat_map(|block| block.rows.iter().copied())
+    }
+
+    /// Evaluates the rows at `values` into the table.
+    pub(super) fn evaluate_rows(&mut self, values: &[f64], side: Side, table: &mut RangeOptimum) {
+        let (all, nature) = (self.model.rows(), self.players.nature);
+        let weights = table.values_mut();
+        let mut put = |block: &RowBlock, results: Vec<f64>| {
+            block.rows.iter().zip(results).for_each(|(&row, w)| weights[row as usize] = w);
+        };
+        if let [block] = &mut self.blocks[..] {
+            let results = block.evaluate(all, values, nature, side);
+            put(block, results);
+        } else {
+            let evaluate = |block: &mut RowBlock| block.evaluate(all, values, nature, side);
+            let results: Vec<Vec<f64>> = self.blocks.par_iter_mut().map(evaluate).collect();
+            self.blocks.iter().zip(results).for_each(|(block, results)| put(block, results));
+        }
+        table.rebuild();
+    }
+
+    /// The optimum over the choices of every state, in the order of [`Sweep::states`].
+    pub(super) fn evaluate_states(&self, table: &RangeOptimum, out: &mut Vec<f64>) {
+        let choices = self.model.choices();
+        out.clear();
+        if self.many_ranges {
+            self.states
+                .par_iter()
+                .with_min_len(256)
+                .map(|&s| table.best(choices.ranges(s)))
+                .collect_into_vec(out);
+        } else {
+            out.extend(self.states.iter().map(|&s| table.best(choices.ranges(s))));
+        }
+    }
+}

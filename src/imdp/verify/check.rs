@@ -1,0 +1,179 @@
+//! The checker.
+
+use super::one_step::{ExactRows, NO_CHOICE, SideProof};
+use super::ranks::check_ranks;
+use super::task::Task;
+use super::{Rejection, Side};
+use crate::certificate::{Certificate, Evidence, Inductive, ModelFile, Step};
+use crate::model::{IntervalMdp, StateId};
+use crate::numeric::{one_minus_down, one_minus_up};
+use crate::property::Verdict;
+
+/// What an accepted certificate proves, and how much was checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Proved {
+    /// The value is at least this in every initial state.
+    pub lower: f64,
+    /// The value is at most this in every initial state.
+    pub upper: f64,
+    /// For thresholds: whether they hold in all initial states.
+    pub verdict: Option<Verdict>,
+    /// The number of states.
+    pub states: u64,
+    /// The number of steps that were checked; one for inductive bounds.
+    pub steps: u64,
+    /// The number of expectations of rows that were computed.
+    pub rows: u64,
+}
+
+/// Checks a certificate against a model and the digests of the files it was read from.
+///
+/// # Errors
+/// [`Rejection`] says what does not follow, in which step and state.
+pub fn check(
+    certificate: &Certificate,
+    model: &IntervalMdp,
+    files: &[ModelFile],
+) -> Result<Proved, Rejection> {
+    check_files(&certificate.files, files)?;
+    let found = model.num_states() as u64;
+    if found != certificate.states {
+        return Err(Rejection::States { found, expected: certificate.states });
+    }
+    let task = Task::new(&certificate.property, model)?;
+    let rows = ExactRows::new(model, &task)?;
+    let start = |side| SideProof::new(side, &rows, &task, task.indicator());
+    let mut proof = Proof {
+        task: &task,
+        rows: &rows,
+        lower: start(Side::Lower),
+        upper: start(Side::Upper),
+        choices: vec![NO_CHOICE; model.num_states()],
+    };
+    let steps = match (&certificate.evidence, task.steps) {
+        (Evidence::Steps(steps), Some(horizon)) => proof.bounded(steps, horizon)?,
+        (Evidence::Inductive(inductive), None) => proof.unbounded(inductive)?,
+        (Evidence::Steps(_), None) => {
+            return Err(Rejection::Evidence { property: "unbounded", evidence: "bounded" });
+        }
+        (Evidence::Inductive(_), Some(_)) => {
+            return Err(Rejection::Evidence { property: "bounded", evidence: "unbounded" });
+        }
+    };
+    let Certificate { lower, upper, .. } = *certificate;
+    let verdict = proof.check_claims(lower, upper)?;
+    let evaluated = proof.lower.evaluated + proof.upper.evaluated;
+    Ok(Proved { lower, upper, verdict, states: found, steps, rows: evaluated })
+}
+
+fn check_files(expected: &[ModelFile], found: &[ModelFile]) -> Result<(), Rejection> {
+    let missing = || "missing".to_owned();
+    let digest = |files: &[ModelFile], kind: &str| {
+        files.iter().find(|file| file.kind == kind).map_or_else(missing, |file| file.sha256.clone())
+    };
+    for ModelFile { kind, .. } in expected.iter().chain(found) {
+        let (expected, found) = (digest(expected, kind), digest(found, kind));
+        if expected != found {
+            return Err(Rejection::Model { kind: kind.clone(), found, expected });
+        }
+    }
+    Ok(())
+}
+
+struct Proof<'a> {
+    task: &'a Task,
+    rows: &'a ExactRows<'a>,
+    lower: SideProof<'a>,
+    upper: SideProof<'a>,
+    /// The policy's present choices.
+    choices: Vec<u32>,
+}
+
+impl Proof<'_> {
+    /// Checks steps one by one; returns how many were checked.
+    fn bounded(&mut self, steps: &[Step], horizon: u64) -> Result<u64, Rejection> {
+        let found = steps.len() as u64;
+        if found > horizon {
+            return Err(Rejection::Steps { found, expected: horizon });
+        }
+        for (k, step) in (1..).zip(steps) {
+            self.assign(&step.choices, "choices", Some(k), |proof, s, choice| proof.choices[s] = choice)?;
+            let (mut lower, mut upper) = (self.lower.values.clone(), self.upper.values.clone());
+            self.assign(&step.lower, "lower bounds", Some(k), |_, s, value| lower[s] = value)?;
+            self.assign(&step.upper, "upper bounds", Some(k), |_, s, value| upper[s] = value)?;
+            self.lower.step(lower, &self.choices, Some(k))?;
+            self.upper.step(upper, &self.choices, Some(k))?;
+        }
+        if found == horizon {
+            return Ok(found);
+        }
+        // From here on nothing changes: every further step is this one.
+        self.stay(Some(found + 1))?;
+        Ok(found + 1)
+    }
+
+    fn unbounded(&mut self, inductive: &Inductive) -> Result<u64, Rejection> {
+        let (mut lower, mut upper) = (self.task.indicator(), self.task.indicator());
+        self.task.moving.ones().for_each(|s| upper[s] = 1.0);
+        let mut ranks = vec![0; lower.len()];
+        self.assign(&inductive.choices, "choices", None, |proof, s, choice| proof.choices[s] = choice)?;
+        self.assign(&inductive.lower, "lower bounds", None, |_, s, value| lower[s] = value)?;
+        self.assign(&inductive.upper, "upper bounds", None, |_, s, value| upper[s] = value)?;
+        self.assign(&inductive.ranks, "ranks", None, |_, s, rank| ranks[s] = rank)?;
+        self.lower.values = lower;
+        self.upper.values = upper;
+        self.stay(None)?;
+        check_ranks(self.rows, self.task, &self.lower.values, &self.choices, &ranks)?;
+        Ok(1)
+    }
+
+    /// Checks that the bounds follow from themselves.
+    fn stay(&mut self, step: Option<u64>) -> Result<(), Rejection> {
+        for side in [&mut self.lower, &mut self.upper] {
+            side.step(side.values.clone(), &self.choices, step)?;
+        }
+        Ok(())
+    }
+
+    /// Enters a list into a table by state; only moving states may be listed, in order.
+    fn assign<T: Copy>(
+        &mut self,
+        list: &[(StateId, T)],
+        what: &'static str,
+        step: Option<u64>,
+        mut enter: impl FnMut(&mut Self, usize, T),
+    ) -> Result<(), Rejection> {
+        let rejected = |state, problem| Err(Rejection::State { step, state, what, problem });
+        let mut previous = None;
+        for &(state, item) in list {
+            if previous.replace(state).is_some_and(|previous| previous >= state) {
+                return rejected(state, "is out of order");
+            }
+            if !self.task.moving.contains(state as usize) {
+                return rejected(state, "has nothing to choose or does not exist");
+            }
+            enter(self, state as usize, item);
+        }
+        Ok(())
+    }
+
+    /// Checks the claims about the initial states; for thresholds, returns what follows.
+    fn check_claims(&self, lower: f64, upper: f64) -> Result<Option<Verdict>, Rejection> {
+        let mut verdicts = vec![];
+        for s in self.rows.model.initial().ones() {
+            let (mut low, mut high) = (self.lower.values[s], self.upper.values[s]);
+            if self.task.complement {
+                (low, high) = (one_minus_down(high), one_minus_up(low));
+            }
+            let state = s as StateId;
+            if !Side::Lower.follows(lower, low) {
+                return Err(Rejection::Claim { side: Side::Lower, claimed: lower, proved: low, state });
+            }
+            if !Side::Upper.follows(upper, high) {
+                return Err(Rejection::Claim { side: Side::Upper, claimed: upper, proved: high, state });
+            }
+            verdicts.extend(self.task.objective.threshold.as_ref().map(|t| t.decide(low, high)));
+        }
+        Ok(self.task.objective.threshold.as_ref().map(|_| Verdict::in_all(verdicts)))
+    }
+}

@@ -1,0 +1,62 @@
+//! Whether the states with a positive lower bound are left almost surely.
+
+use super::Rejection;
+use super::one_step::ExactRows;
+use super::task::Task;
+use crate::exact::Nature;
+use crate::model::{RowId, StateId, StateSet};
+use rayon::prelude::*;
+
+/// Checks that ranks decrease with positive probability; states whose lower bound is 0 or final have rank 0.
+///
+/// In every state of `{L > 0}`, for the policy's choice if it maximises and for all choices otherwise: a
+/// minimising nature gives lower ranks positive probability whatever it does, a maximising one by some
+/// distribution that attains the expectation of `L`.
+pub(super) fn check_ranks(
+    rows: &ExactRows<'_>,
+    task: &Task,
+    lower: &[f64],
+    choices: &[u32],
+    ranks: &[u32],
+) -> Result<(), Rejection> {
+    let open = |s: usize| task.moving.contains(s) && lower[s] > 0.0;
+    let rank = |s: u32| if open(s as usize) { ranks[s as usize] } else { 0 };
+    let of_choices = rows.model.choices();
+    let states = || (0..lower.len()).filter(|&s| open(s)).map(|s| s as StateId);
+    let chosen = |s: StateId| of_choices.row_of_choice(s, choices[s as usize]);
+    let used: Vec<RowId> = if task.policy_maximises {
+        let mut set = StateSet::with_capacity(rows.model.rows().len());
+        states().filter_map(chosen).for_each(|row| set.insert(row as usize));
+        set.ones().map(|row| row as RowId).collect()
+    } else {
+        of_choices.used_rows(rows.model.rows().len(), states())
+    };
+    let needed_by = |&row: &RowId| {
+        let successors = rows.model.rows().row(row).successors;
+        let exact = rows.get(row)?;
+        Ok(match task.nature {
+            Nature::Min => exact.certain_rank(successors, rank),
+            Nature::Max => {
+                let support = exact.maximal_support(successors, lower);
+                let met = successors.iter().zip(support).filter(|(_, possible)| *possible);
+                met.map(|(&s, _)| u64::from(rank(s)) + 1).min().unwrap_or(u64::MAX)
+            }
+        })
+    };
+    let found: Vec<u64> = used.par_iter().map(needed_by).collect::<Result<_, Rejection>>()?;
+    let mut needed = vec![u64::MAX; rows.model.rows().len()];
+    used.iter().zip(found).for_each(|(&row, least)| needed[row as usize] = least);
+    for state in states() {
+        let rank = rank(state);
+        let refutes = |row: &RowId| u64::from(rank) < needed[*row as usize];
+        let refuted = if task.policy_maximises {
+            chosen(state).filter(refutes)
+        } else {
+            of_choices.rows(state).find(refutes)
+        };
+        if let Some(row) = refuted {
+            return Err(Rejection::Rank { state, rank, row, needed: needed[row as usize] });
+        }
+    }
+    Ok(())
+}

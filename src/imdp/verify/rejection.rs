@@ -1,0 +1,136 @@
+//! Why a certificate is not accepted.
+
+use super::Side;
+use crate::model::{MemoryError, RowId, StateId};
+
+/// A certificate that proves nothing about the model at hand.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Rejection {
+    /// The model is another one.
+    #[error(
+        "another model was solved: the SHA-256 of the .{kind} file is {found}; the certificate says {expected}"
+    )]
+    Model {
+        /// Which file.
+        kind: String,
+        /// Its SHA-256, or that there is none.
+        found: String,
+        /// What the certificate says.
+        expected: String,
+    },
+    /// The number of states is another one.
+    #[error("the model has {found} states; the certificate says {expected}")]
+    States {
+        /// The model's.
+        found: u64,
+        /// The certificate's.
+        expected: u64,
+    },
+    /// The property does not fit the model.
+    #[error("the property does not fit the model: {error}")]
+    Property {
+        /// Why.
+        error: String,
+    },
+    /// Steps for an unbounded property or the other way round.
+    #[error("the property is {property}, the evidence is for one that is {evidence}")]
+    Evidence {
+        /// `bounded` or `unbounded`.
+        property: &'static str,
+        /// The other one.
+        evidence: &'static str,
+    },
+    /// More steps than the property has.
+    #[error("there is evidence for {found} steps; the property has {expected}")]
+    Steps {
+        /// The certificate's.
+        found: u64,
+        /// The property's.
+        expected: u64,
+    },
+    /// A state that does not exist or about which nothing can be claimed, or states out of order.
+    #[error("{}: state {state} in the list of {what} {problem}", place(.step))]
+    State {
+        /// In which step.
+        step: Option<u64>,
+        /// The state.
+        state: StateId,
+        /// Which list.
+        what: &'static str,
+        /// What is wrong.
+        problem: &'static str,
+    },
+    /// A row that admits no distribution when its bounds are taken exactly.
+    #[error(
+        "row {row} of the model admits no distribution: its bounds are further from sum 1 than rounding explains"
+    )]
+    NoDistribution {
+        /// The row.
+        row: RowId,
+    },
+    /// The policy must make a bound true but has no such choice.
+    #[error("{}, state {state}: the {side} bound needs a choice of the policy, found none that exists", place(.step))]
+    NoChoice {
+        /// In which step.
+        step: Option<u64>,
+        /// The state.
+        state: StateId,
+        /// Which bound.
+        side: Side,
+    },
+    /// A bound does not follow.
+    #[error(
+        "{}, state {state}: the {side} bound {bound:?} does not follow: row {row} has the expectation {expectation:?}",
+        place(.step)
+    )]
+    Bound {
+        /// In which step.
+        step: Option<u64>,
+        /// The state.
+        state: StateId,
+        /// Which bound.
+        side: Side,
+        /// The bound.
+        bound: f64,
+        /// The row that refutes it.
+        row: RowId,
+        /// The row's expectation, rounded to the side of the bound.
+        expectation: f64,
+    },
+    /// A rank that does not decrease.
+    #[error(
+        "state {state} has rank {rank}: by row {row} it need not meet a rank below {needed}, so it may never be left"
+    )]
+    Rank {
+        /// The state.
+        state: StateId,
+        /// Its rank.
+        rank: u32,
+        /// The row.
+        row: RowId,
+        /// The least rank that the row would justify.
+        needed: u64,
+    },
+    /// A claim about the initial states goes beyond what was proved.
+    #[error(
+        "the {side} bound {claimed:?} is claimed for the initial states; proved is only {proved:?} in state {state}"
+    )]
+    Claim {
+        /// Which bound.
+        side: Side,
+        /// What is claimed.
+        claimed: f64,
+        /// What is proved, rounded outwards.
+        proved: f64,
+        /// The initial state.
+        state: StateId,
+    },
+    /// The exact model does not fit into memory.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
+}
+
+fn place(step: &Option<u64>) -> String {
+    step.map_or_else(|| "inductive bounds".to_owned(), |step| format!("step {step}"))
+}

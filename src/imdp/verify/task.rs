@@ -1,0 +1,50 @@
+//! What a property of a model asks to be proved.
+
+use super::Rejection;
+use crate::exact::Nature;
+use crate::model::{IntervalMdp, StateId, StateSet};
+use crate::property::{Objective, Property, QueryKind};
+
+/// An event whose probability is bounded, and who pulls which way.
+pub(super) struct Task {
+    pub objective: Objective,
+    /// Whether the value asked for is 1 minus the probability of the event.
+    pub complement: bool,
+    /// Where a path succeeds.
+    pub goal: StateSet,
+    /// The states whose value is a matter of choices: all others have 1 in the goal and 0 elsewhere.
+    pub moving: StateSet,
+    /// The number of steps, if bounded.
+    pub steps: Option<u64>,
+    pub policy_maximises: bool,
+    pub nature: Nature,
+}
+
+impl Task {
+    pub(super) fn new(property: &Property, model: &IntervalMdp) -> Result<Self, Rejection> {
+        let refused =
+            |error: crate::property::PropertyError| Rejection::Property { error: error.to_string() };
+        let objective = property.resolve(model.kind()).map_err(refused)?;
+        let query = objective.query(model).map_err(refused)?;
+        let has_rows = |s: &usize| !model.choices().ranges(*s as StateId).is_empty();
+        let mut moving: StateSet = (0..model.num_states()).filter(has_rows).collect();
+        moving.grow(model.num_states());
+        let (goal, steps) = match query.kind {
+            // A goal state may be left at once: `X` asks about the state after the step only.
+            QueryKind::Next { goal } => (goal, Some(1)),
+            QueryKind::Until { safe, goal, steps } => {
+                moving.intersect_with(&safe);
+                moving.difference_with(&goal);
+                (goal, steps)
+            }
+        };
+        let nature = if query.resolution.nature_maximises() { Nature::Max } else { Nature::Min };
+        let policy_maximises = query.resolution.policy_maximises();
+        Ok(Self { objective, complement: query.complement, goal, moving, steps, policy_maximises, nature })
+    }
+
+    /// 1 in the goal, 0 elsewhere.
+    pub(super) fn indicator(&self) -> Vec<f64> {
+        (0..self.goal.len()).map(|s| if self.goal.contains(s) { 1.0 } else { 0.0 }).collect()
+    }
+}

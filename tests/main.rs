@@ -1,0 +1,30 @@
+//! The integration tests: one binary, a module for each thing that is promised.
+//!
+//! `common` holds what several share. Tests of the guarantee's coverage, which take longer, are a binary of their own.
+#![allow(missing_docs, unreachable_pub, clippy::unwrap_used, clippy::expect_used)]
+
+mod common;
+
+mod bad_input;
+mod binomial;
+mod cases;
+mod controller;
+mod crosscheck_engines;
+mod crosscheck_storm;
+mod diff;
+mod formats;
+mod import;
+mod native;
+mod open;
+mod output;
+mod paper;
+mod predecessors;
+mod prune;
+mod references;
+mod report;
+mod riccati;
+mod simulate;
+mod solver;
+mod steering;
+mod values;
+mod verify;

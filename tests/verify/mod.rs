@@ -1,0 +1,7 @@
+//! Certificates: honest ones are accepted, false ones are not.
+mod command_line;
+mod falsified;
+mod files;
+mod oracle;
+mod random;
+mod shipped;
