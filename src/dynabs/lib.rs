@@ -62,6 +62,7 @@
 pub mod abstraction;
 pub mod controller;
 pub mod geometry;
+pub mod landing;
 pub mod linear_algebra;
 pub mod model_file;
 pub mod noise;
