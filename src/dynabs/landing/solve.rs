@@ -54,10 +54,10 @@ impl Question<'_> {
     /// than the upper one. Both hold however the computation ends.
     pub fn solve(&self, options: &SolverOptions<'_>) -> LandingSolution {
         let mut control = Control::new(options);
-        let (lower, policy, stopped) = self.from_below(&mut control);
+        let (lower, policy, stopped) = self.lower_bounds(&mut control);
         let iterations = control.iterations;
         let (upper, stopped_above) = match stopped {
-            None => self.from_above(&mut control, iterations),
+            None => self.upper_bounds(&mut control, iterations),
             Some(_) => (self.most(), None),
         };
         let values = ValueBounds { lower, upper };
@@ -88,7 +88,7 @@ impl Question<'_> {
     /// Lower bounds and the policy that guarantees them.
     ///
     /// To stay for ever under the worst noise is to be where one can for certain, or to come there.
-    fn from_below(&self, control: &mut Control<'_>) -> (Vec<f64>, Policy, Option<Status>) {
+    fn lower_bounds(&self, control: &mut Control<'_>) -> (Vec<f64>, Policy, Option<Status>) {
         let mut policy = Choices::new(self.goal.len(), self.steps);
         let mut values = self.start();
         if self.aim == Aim::Stay && self.steps.is_none() {
@@ -126,7 +126,7 @@ impl Question<'_> {
     }
 
     /// Upper bounds; without a bound on the steps, those after `iterations` steps from above.
-    fn from_above(&self, control: &mut Control<'_>, iterations: u64) -> (Vec<f64>, Option<Status>) {
+    fn upper_bounds(&self, control: &mut Control<'_>, iterations: u64) -> (Vec<f64>, Option<Status>) {
         let shrinks = self.steps.is_none() || self.aim == Aim::Stay;
         let mut values = if shrinks { self.most() } else { self.start() };
         for _ in 0..self.steps.unwrap_or(iterations) {

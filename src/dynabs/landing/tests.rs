@@ -8,6 +8,9 @@ use num_traits::{One, Zero};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 
+/// Ranges of sub-cells.
+type Image = Vec<(i64, i64)>;
+
 /// A small game, made up.
 struct Game {
     axes: Vec<Axis>,
@@ -15,7 +18,7 @@ struct Game {
     open: Vec<u32>,
     aim: Aim,
     /// By cell and input.
-    boxes: Vec<Vec<Option<Vec<(i64, i64)>>>>,
+    boxes: Vec<Vec<Option<Image>>>,
 }
 
 impl ImageSource for Game {
@@ -54,7 +57,7 @@ fn game(seed: u64) -> Game {
     let aim = if rng.random_bool(0.6) { Aim::Reach } else { Aim::Stay };
     let kinds: Vec<u32> = (0..cells).map(|_| rng.random_range(0..6)).collect();
     let goal = kinds.iter().map(|&kind| aim == Aim::Reach && kind == 0).collect();
-    let mut image = |rng: &mut ChaCha12Rng| {
+    let image = |rng: &mut ChaCha12Rng| {
         rng.random_bool(0.8).then(|| {
             let of_axis = |axis: &Axis| {
                 let first = rng.random_range(-5..axis.sub_cells() + 3);
@@ -78,7 +81,7 @@ fn by_definition(game: &Game, landing: &Landing, steps: usize, lower: bool) -> V
     for _ in 0..steps {
         let mut next = values.clone();
         for &cell in &game.open {
-            let worth = |image: &Vec<(i64, i64)>| {
+            let worth = |image: &Image| {
                 let count: i64 = image.iter().map(|(a, b)| b - a + 1).product();
                 let places = (0..count).map(|mut index| {
                     let place = image.iter().map(|(a, b)| {

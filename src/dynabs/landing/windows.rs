@@ -36,12 +36,12 @@ impl<'a> Windows<'a> {
     /// that is not periodic.
     pub(super) fn of<S: Side>(&mut self, size: &[u32]) -> &[f64] {
         let same = self.size.iter().zip(size).take_while(|(a, b)| a == b).count();
-        for axis in same..size.len() {
+        for (axis, &length) in size.iter().enumerate().skip(same) {
             let mut level = std::mem::take(&mut self.levels[axis]);
             level.clear();
-            if size[axis] > 1 {
+            if length > 1 {
                 level.extend_from_slice(self.up_to(axis));
-                slide::<S>(&mut level, self.extents[axis], size[axis] as usize);
+                slide::<S>(&mut level, self.extents[axis], length as usize);
             }
             self.levels[axis] = level;
         }
