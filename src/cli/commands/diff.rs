@@ -3,7 +3,7 @@
 use crate::{CliError, print, thousands};
 use clap::Args;
 use dynabs::run::{RecordError, open_record};
-use imdp::compare::{CompareError, Comparison, DiffOptions, Reference, Section, Tolerance, diff};
+use imdp::compare::{CompareError, DiffOptions, Differences, Reference, Section, Tolerance, diff};
 use serde_json::json;
 use std::fmt::Write as _;
 use std::fs;
@@ -101,7 +101,7 @@ fn write_reference(file: &Path, reference: &Reference) -> Result<ExitCode, CliEr
     Ok(ExitCode::SUCCESS)
 }
 
-fn text(comparison: &Comparison, (left, right): (&str, &str)) -> String {
+fn text(comparison: &Differences, (left, right): (&str, &str)) -> String {
     let mut text = String::new();
     for section in &comparison.sections {
         write_section(section, &mut text);

@@ -26,12 +26,12 @@ pub enum StateFormula {
     /// `a <=> b`: holds where both or neither do. PRISM's `a=b` of Boolean formulas is this.
     Iff(Box<Self>, Box<Self>),
     /// Compares two integers; also `=` and `!=` of two Boolean variables, which look the same.
-    Compare(IntegerExpression, Comparison, IntegerExpression),
+    Compare(IntegerExpression, Relation, IntegerExpression),
 }
 
 /// How two integers are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Comparison {
+pub enum Relation {
     /// `=`
     Equal,
     /// `!=`
@@ -138,7 +138,7 @@ impl fmt::Display for StateFormula {
     }
 }
 
-impl fmt::Display for Comparison {
+impl fmt::Display for Relation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Equal => "=",
