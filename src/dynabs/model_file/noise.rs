@@ -116,7 +116,7 @@ fn read_samples(
 ) -> Result<NoiseSource, Diagnostic> {
     let path = directory.join(&spec.file);
     let name = path.display().to_string();
-    let text = std::fs::read_to_string(&path).map_err(|error| {
+    let text = imdp::files::read_text(&path).map_err(|error| {
         Diagnostic::at("/noise/samples/file", format!("\"{}\" ({error})", spec.file), "a readable CSV file")
             .remedy("Relative paths start at the directory of the model file.")
     })?;

@@ -6,6 +6,7 @@ use super::array::Array;
 use super::index::{Field, ValuationClass};
 use crate::formats::import::{ImportError, Position};
 use crate::model::{StateSet, StateVariables, VariableValues, require_memory};
+use std::collections::HashSet;
 
 /// Where a variable is in the bits of a state.
 struct Packed {
@@ -75,13 +76,14 @@ pub(super) fn read_variables(
 /// The variables of a class and the number of its bits.
 fn layout(class: ValuationClass, room: usize) -> Result<(Vec<Packed>, u64), String> {
     let mut packed: Vec<Packed> = vec![];
+    let mut names = HashSet::new();
     let mut bits = 0u64;
     for field in class.variables {
         let first = bits as usize;
         let width = match field {
             Field::Padding { padding } => padding,
             Field::Variable { name, kind, offset, .. } => {
-                if packed.iter().any(|earlier| earlier.name == name) {
+                if !names.insert(name.clone()) {
                     return Err(format!("{name} twice"));
                 }
                 let is_bool = kind.name == "bool";
