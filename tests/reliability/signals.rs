@@ -14,7 +14,7 @@ fn a_closed_output_keeps_the_exit_code() {
     compiled(scratch.path(), "run");
     let prepared = shell(
         scratch.path(),
-        "$compile $room -q -o other --set '/task/horizon=5' && $check solve run -q --certificate good &&
+        "$compile $room -q -o other --set '/partition/cells=[24]' && $check solve run -q --certificate good &&
          sed '/^claim/s/.*/claim 0.9999 1/; /^end/d' good > bad && echo end $(sha256sum < bad | cut -c1-64) >> bad",
     );
     assert_eq!(prepared.code, Some(0), "{}", prepared.err);

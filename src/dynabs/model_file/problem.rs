@@ -8,7 +8,7 @@ use super::{regions, stabilizer};
 use crate::geometry::Polytope;
 use crate::linear_algebra::ExactMatrix;
 use crate::partition::{CellId, CellLabels, Grid, Region};
-use crate::system::{LinearSystem, group, smallest_group};
+use crate::system::{LinearSystem, TooManyDigits, group, require_digits, smallest_group};
 use imdp::numeric::{Rational, from_decimal, to_f64};
 use imdp::property::Probability;
 use num_traits::{One, Zero};
@@ -99,6 +99,11 @@ impl Problem {
         let n = step_system.state_dimension();
         let step_input = input_set("/input", &file.input, step_system.input_dimension())?;
         let group_steps = grouping(&file.dynamics, &step_system)?;
+        require_digits(&step_system, group_steps).map_err(|TooManyDigits { digits, steps }| {
+            let found = format!("matrices with numbers of up to {digits} digits after {steps} steps");
+            Diagnostic::at("/dynamics", found, "numbers that can be computed with exactly")
+                .remedy("Write the matrices with fewer digits, or group fewer steps.")
+        })?;
         let system = group(&step_system, group_steps);
         let input = step_input.power(group_steps);
 
@@ -187,7 +192,7 @@ fn grouping(spec: &DynamicsSpec, system: &LinearSystem) -> Result<usize, Diagnos
             Err(Diagnostic::at(place, d.to_string(), format!("at most 64; {smallest} would do")))
         }
         GroupSteps::Steps(d) => {
-            let rank = group(system, d as usize).b().rank();
+            let rank = system.grouped_rank(d as usize);
             if rank == n {
                 return Ok(d as usize);
             }
@@ -203,6 +208,13 @@ fn horizon(horizon: Horizon, d: usize, warnings: &mut Vec<String>) -> Result<Opt
     let (grouped, rest) = (steps / d as u64, steps % d as u64);
     if grouped == 0 {
         let expected = format!("at least {d}, the number of steps that are grouped into one");
+        return Err(Diagnostic::at("/task/horizon", steps.to_string(), expected));
+    }
+    // A property counts steps as PRISM does.
+    if i32::try_from(grouped).is_err() {
+        let most = i32::MAX as u64 * d as u64;
+        let expected =
+            format!("at most {most}, which is as many steps as a property can have, or \"infinite\"");
         return Err(Diagnostic::at("/task/horizon", steps.to_string(), expected));
     }
     if rest > 0 {

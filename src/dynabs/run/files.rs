@@ -36,6 +36,9 @@ impl RunFiles {
             let path = path.display().to_string();
             move |error| OpenError::Io { path, error }
         };
+        if !directory.is_dir() {
+            return Ok(None);
+        }
         settle(directory).map_err(io(directory))?;
         let path = directory.join(MANIFEST);
         let manifest = match files::read(&path) {

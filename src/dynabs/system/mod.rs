@@ -6,7 +6,7 @@ mod linear_system;
 mod riccati;
 mod two_layer;
 
-pub use grouping::{group, smallest_group};
+pub use grouping::{TooManyDigits, group, require_digits, smallest_group};
 pub use law::{Extent, FeedbackLaw, SteeringConstraint, decimal_gain, lower_layer_violation};
 pub use linear_system::LinearSystem;
 pub use riccati::{Lqr, RiccatiError, spectral_radius};

@@ -92,6 +92,10 @@ impl Outputs {
 impl Group {
     fn create(&mut self, name: OsString) -> io::Result<File> {
         let file = File::create_new(self.staged.path().join(&name))?;
+        // Who may read the old file may read the new one, and nobody else.
+        if let Ok(old) = fs::metadata(self.directory.join(&name)) {
+            file.set_permissions(old.permissions())?;
+        }
         self.names.push(name);
         Ok(file)
     }
