@@ -11,7 +11,7 @@ mod staging;
 mod write;
 
 pub use files::RunFiles;
-pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile, ProbabilityReport};
+pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile};
 pub use open::{OpenError, Run};
 pub use pruning::PruningReport;
 pub use record::{RecordError, open_record};
