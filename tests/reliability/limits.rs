@@ -47,7 +47,7 @@ fn pipes_devices_and_made_up_files_are_refused() {
     compiled(scratch.path(), "run");
     let prepared = shell(
         scratch.path(),
-        "mkfifo pipe; ln -s /dev/zero zero
+        "mkfifo pipe; ln -s /dev/zero zero; printf '0=\"init\"\\n0: 0\\n' | tee pipe.lab > zero.lab
          $check solve run -q --certificate certificate; $check convert run m.tra -q
          sed 's|/proc/self/environ|pipe|' $data/17.json > 17-pipe.json; sed 's|/proc/self/environ|zero|' $data/17.json > 17-zero.json",
     );

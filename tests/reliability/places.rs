@@ -82,7 +82,7 @@ fn devices_are_written_through() {
         (
             "$check convert run/model.dynabs out --to drn -q | tail -c 5; exit ${PIPESTATUS[0]}".into(),
             0,
-            "// ",
+            "125]\n",
         ),
     ] {
         let ended = shell(scratch.path(), &line);

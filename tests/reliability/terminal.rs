@@ -16,7 +16,7 @@ fn control_characters_are_spelled_out() {
         "$compile $room --dry-run --set $'/\\e[31mX=1'",
         "$compile $room --dry-run --set $'/noise={\"samples\":{\"file\":\"x.csv\",\"of\":\"step\"}}' --set $'/noise/samples/file=\\e[31mX'",
         "printf '\\033[31mX\\n' > x.csv; $check simulate run --noise x.csv",
-        "printf '{\"\\033[31mX\": 1}' > x.json; $compile x.json --dry-run",
+        "printf '{\"\\\\u001b[31mX\": 1}' > x.json; $compile x.json --dry-run",
         "$check solve m.drn -p $'Pmaxmin=? [ F \"\\e[31mX\" ]'",
         "$check convert m.drn m.tra",
         "$check solve $'\\e[31mX'",

@@ -91,7 +91,7 @@ pub struct Arguments {
 const PRUNING_EPSILON: f64 = 1e-9;
 
 const AFTER_HELP: &str = "\
-Exit codes: 0 done, 2 bad input or usage, 4 I/O or internal error;
+Exit codes: 0 done, 2 bad input or usage, 3 interrupted, 4 I/O, memory or internal error;
 with --solve or --prune also 1 the threshold is missed, 3 undecided (limit, interrupt, bounds straddle the threshold).
 
 Examples:
