@@ -1,8 +1,8 @@
 //! Errors as the tools report them, and their exit codes.
 
 use super::warn;
+use dynabs::Diagnostic;
 use dynabs::abstraction::AbstractionError;
-use dynabs::model_file::Diagnostic;
 use dynabs::run::RunDirectoryError;
 use imdp::files::{is_fault_of_input, is_interruption};
 use std::io;

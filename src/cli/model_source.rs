@@ -1,6 +1,7 @@
 //! Where a model to be solved comes from: a run directory or a file of any format.
 
 use super::{Bars, CliError};
+use dynabs::guarantee::{Claim, Gap, Guarantee};
 use dynabs::run::{Manifest, NATIVE_MODEL, RunFiles};
 use imdp::certificate::ModelFile;
 use imdp::files::{Snapshot, steady};
@@ -8,6 +9,7 @@ use imdp::formats::Format;
 use imdp::formats::sha256_of_file;
 use imdp::model::IntervalMdp;
 use imdp::progress::Progress;
+use imdp::property::{Property, PropertyError};
 use std::path::{Path, PathBuf};
 
 /// A model and where it was found.
@@ -20,6 +22,15 @@ pub(super) struct LoadedModel {
     files: Vec<PathBuf>,
     /// Which files these were, with that of the properties.
     read: Snapshot,
+    /// What was promised of the run that it is of.
+    promise: Option<Promise>,
+}
+
+/// What the manifest of a run promises of the model that was read.
+struct Promise {
+    guarantee: Guarantee,
+    /// Why it is not about the file that was read.
+    gap: Option<Gap>,
 }
 
 impl LoadedModel {
@@ -30,6 +41,22 @@ impl LoadedModel {
         }
         let path = self.files.first().map(|path| path.display().to_string()).unwrap_or_default();
         Err(CliError::Failure(format!("{path}: found other files than at the start\n  Run it again.")))
+    }
+
+    /// What bounds on the value of a property claim of the system; none for models that are of no run.
+    ///
+    /// # Errors
+    /// [`PropertyError`] if the property makes no sense for the model.
+    pub(super) fn claim(
+        &self,
+        property: &Property,
+        bounds: [f64; 2],
+    ) -> Result<Option<Claim>, PropertyError> {
+        let claim = |promise: &Promise| match promise.gap {
+            Some(gap) => Ok(promise.guarantee.no_claim(&[gap])),
+            None => promise.guarantee.claim(property, &self.model, bounds),
+        };
+        self.promise.as_ref().map(claim).transpose()
     }
 
     /// What a certificate says about the files that the model was read from.
@@ -76,9 +103,12 @@ fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<Loade
         found.iter().try_for_each(|run| there.clone().try_for_each(|name| run.verified(name).map(drop)))
     };
     let (native, tra) = (directory.join(NATIVE_MODEL), directory.join("model.tra"));
+    let manifest = found.as_ref().and_then(|run| run.manifest().ok());
     if native.exists() && !explicit {
         verify(&[NATIVE_MODEL, "model.props"])?;
-        return load_file(&native, Format::Native, bars);
+        let mut loaded = load_file(&native, Format::Native, bars)?;
+        loaded.promise = promise(manifest.as_ref(), &loaded, false)?;
+        return Ok(loaded);
     }
     if !tra.exists() {
         let wanted =
@@ -90,12 +120,33 @@ fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<Loade
     }
     verify(&["model.tra", "model.sta", "model.lab", "model.props"])?;
     let mut loaded = load_file(&tra, Format::Prism, bars)?;
-    if let Some(manifest) = found.and_then(|run| run.manifest().ok())
-        && loaded.model.rows().iter().any(|row| row.lower.contains(&manifest.prism_lower_bound))
-    {
-        loaded.warnings.push(raised_bounds(&manifest, &loaded.model));
-    }
+    let raised = |manifest: &&Manifest| {
+        loaded.model.rows().iter().any(|row| row.lower.contains(&manifest.prism_lower_bound))
+    };
+    let raised = manifest.as_ref().filter(raised);
+    loaded.promise = promise(manifest.as_ref(), &loaded, raised.is_some())?;
+    loaded.warnings.extend(raised.map(|manifest| raised_bounds(manifest, &loaded.model)));
     Ok(loaded)
+}
+
+/// What the manifest promises, which is nothing of files that it does not describe.
+fn promise(
+    manifest: Option<&Manifest>,
+    loaded: &LoadedModel,
+    raised: bool,
+) -> Result<Option<Promise>, CliError> {
+    let Some(manifest) = manifest else { return Ok(None) };
+    let described = || {
+        let digests = loaded.digests()?;
+        Ok::<_, CliError>(
+            (digests.iter()).all(|file| manifest.outputs.iter().any(|o| o.sha256 == file.sha256)),
+        )
+    };
+    let gap = match raised {
+        true => Some(Gap::RaisedBounds),
+        false => (!described()?).then_some(Gap::OtherModel),
+    };
+    Ok(Some(Promise { guarantee: manifest.guarantee.clone(), gap }))
 }
 
 /// What raising lower bounds of 0 for PRISM can do to the values of this file.
@@ -138,7 +189,7 @@ fn load_file(path: &Path, format: Format, bars: &Bars) -> Result<LoadedModel, Cl
     };
     let properties = path.with_extension("props");
     let read = snapshot(&files, &properties);
-    Ok(LoadedModel { model: imported.model, warnings, properties, files, read })
+    Ok(LoadedModel { model: imported.model, warnings, properties, files, read, promise: None })
 }
 
 fn snapshot(files: &[PathBuf], properties: &Path) -> Snapshot {

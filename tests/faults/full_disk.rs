@@ -10,7 +10,9 @@ fn a_full_disk_loses_nothing() {
     let scratch = TempDir::new().unwrap();
     // The disk goes with the last process that sees it.
     let mount = "mkdir disk && mount -t tmpfs -o size=256k tmpfs disk";
-    if shell(scratch.path(), &format!("unshare -m bash -c '{mount}'; code=$?; rmdir disk; exit $code")).code != Some(0) {
+    if shell(scratch.path(), &format!("unshare -m bash -c '{mount}'; code=$?; rmdir disk; exit $code")).code
+        != Some(0)
+    {
         return;
     }
     let prepared = shell(scratch.path(), "$compile $room -q -o run");

@@ -29,7 +29,8 @@ const fn check(old: &'static str, new: &'static str) -> Writer {
 
 #[test]
 fn compile() {
-    let arguments = ["IN/model.json -q -o run --force --seed 1", "IN/model.json -q -o run --force --seed 2 --format drn"];
+    let arguments =
+        ["IN/model.json -q -o run --force --seed 1", "IN/model.json -q -o run --force --seed 2 --format drn"];
     trial(&Writer { program: "dynabs-compile", arguments, only_new: false });
 }
 
@@ -75,7 +76,10 @@ fn report() {
 
 #[test]
 fn write_reference() {
-    trial(&check("diff IN/old --write-reference reference.json", "diff IN/new --write-reference reference.json"));
+    trial(&check(
+        "diff IN/old --write-reference reference.json",
+        "diff IN/new --write-reference reference.json",
+    ));
 }
 
 /// Kills a command again and again and looks at what is there.
@@ -126,7 +130,12 @@ fn trial(writer: &Writer) {
     assert!(killed * 2 > kills(), "most are to be killed: {killed}");
 }
 
-fn is_whole(found: &BTreeMap<String, Vec<u8>>, before: &BTreeMap<String, Vec<u8>>, new: &BTreeMap<String, Vec<u8>>, round: u32) {
+fn is_whole(
+    found: &BTreeMap<String, Vec<u8>>,
+    before: &BTreeMap<String, Vec<u8>>,
+    new: &BTreeMap<String, Vec<u8>>,
+    round: u32,
+) {
     if found != before && found != new {
         let names: Vec<_> = found.keys().collect();
         panic!("round {round}: neither the old nor the new output, but {names:?}");

@@ -106,7 +106,9 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     let mut results = Vec::with_capacity(properties.len());
     bars.catch_interrupts();
     for property in &properties {
-        let (answer, result) = answer(&loaded.model, property, &arguments.limits, wanted, &bars)?;
+        let (answer, mut result) = answer(&loaded.model, property, &arguments.limits, wanted, &bars)?;
+        let claim = loaded.claim(property, [answer.lower, answer.upper]);
+        result.guarantee = claim.map_err(|error| CliError::Input(format!("{property}: {error}")))?;
         write_files(arguments, &loaded, property, answer)?;
         results.push(result);
     }

@@ -4,8 +4,10 @@ use super::appearance::{NOISE, PROBLEM};
 use super::files::RunFiles;
 use super::manifest::Manifest;
 use super::write::NATIVE_MODEL;
+use crate::Diagnostic;
 use crate::abstraction::{Abstraction, AbstractionError};
-use crate::model_file::{Diagnostic, Document, Problem};
+use crate::model_file::Document;
+use crate::problem::Problem;
 use imdp::files::steady;
 use imdp::formats::native::{self, NativeError};
 use imdp::formats::sha256_hex;
@@ -22,13 +24,14 @@ use std::path::{Path, PathBuf};
 /// use dynabs::abstraction::compile;
 /// use dynabs::run::{Manifest, Run, WriteOptions, write_run};
 /// use dynabs::imdp::solver::SolverOptions;
-/// use dynabs::model_file::{Document, Problem};
+/// use dynabs::model_file::Document;
+/// use dynabs::problem::Problem;
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/room_temperature.json");
 /// let source = std::fs::read_to_string(path)?;
 /// let document = Document::parse(path.as_ref(), &source)?;
-/// let problem = Problem::from_document(&document)?;
+/// let problem = document.problem()?;
 /// let abstraction = compile(&problem, &())?;
 /// let manifest = Manifest::new(&document, &source, &problem, &abstraction);
 /// let scratch = tempfile::tempdir()?;
@@ -143,8 +146,8 @@ impl Run {
             return Err(OpenError::Pruned { path: shown });
         }
         let document = problem_document(directory, &files.read(PROBLEM)?)?;
-        let problem = Problem::from_document(&document)?;
-        if let Some((_, text)) = &problem.noise.file {
+        let problem = document.problem()?;
+        if let Some((_, text)) = problem.noise().file() {
             // What was read, not what is there by now.
             files.compare(NOISE, &sha256_hex(text.as_bytes()))?;
         }

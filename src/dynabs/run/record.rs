@@ -4,8 +4,9 @@ use super::appearance::PROBLEM;
 use super::files::RunFiles;
 use super::manifest::Manifest;
 use super::open::{OpenError, problem_document};
+use crate::Diagnostic;
 use crate::abstraction::{AbstractionError, compile};
-use crate::model_file::{Diagnostic, Document, Problem};
+use crate::model_file::Document;
 use imdp::compare::{self, CompareError, Record, Sizes};
 use imdp::files::steady;
 use std::path::Path;
@@ -67,7 +68,7 @@ fn open_once(path: &Path) -> Result<Record, RecordError> {
 
 /// Gets the model of a directory without one from the problem that it was made of.
 fn compile_again(path: &Path, document: &Document, record: &mut Record) -> Result<(), RecordError> {
-    let problem = Problem::from_document(document)?;
+    let problem = document.problem()?;
     let refuse = |error| RecordError::Abstraction { path: path.display().to_string(), error };
     let abstraction = compile(&problem, &()).map_err(refuse)?;
     record.sizes = Some(Sizes::new(&abstraction.model));
