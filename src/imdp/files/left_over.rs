@@ -76,7 +76,7 @@ pub(super) fn finish(path: &Path, directory: &Path) -> io::Result<()> {
         }
     }
     match fs::remove_dir(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
         _ => sync_directory(directory),
     }
 }
