@@ -2,6 +2,7 @@
 
 use crate::formats::import::{Cursor, Fault, ImportError, Lines};
 use crate::model::{ModelKind, StateId};
+use std::collections::HashSet;
 use std::io::BufRead;
 
 /// What the header says.
@@ -16,8 +17,11 @@ pub(super) struct Header {
     pub variables: Vec<String>,
 }
 
-/// Reads up to the line `@model`.
-pub(super) fn read_header<R: BufRead>(lines: &mut Lines<'_, R>) -> Result<Header, ImportError> {
+/// The shortest line of a state with its line end, `state 0`.
+const SHORTEST_STATE: u64 = 8;
+
+/// Reads up to the line `@model` of a file of so many bytes.
+pub(super) fn read_header<R: BufRead>(lines: &mut Lines<'_, R>, bytes: u64) -> Result<Header, ImportError> {
     let (mut kind, mut states, mut choices, mut intervals) = (None, None, None, false);
     let (mut labels, mut variables) = (vec![], vec![]);
     while let Some(mut cursor) = lines.next_or_blank()? {
@@ -31,6 +35,12 @@ pub(super) fn read_header<R: BufRead>(lines: &mut Lines<'_, R>) -> Result<Header
             Entry::Section(name @ ("@parameters" | "@reward_models")) => refuse_content(lines, name)?,
             Entry::Section(name @ "@nr_states") => {
                 let count = read_count(lines, 1..=u64::from(StateId::MAX))?;
+                // A header that lies must not decide how much is allocated.
+                let fits = bytes / SHORTEST_STATE;
+                if count > fits {
+                    let expected = format!("at most {fits} states in a file of {bytes} bytes");
+                    return Err(lines.refuse(1, expected, count.to_string()));
+                }
                 once(lines, name, &mut states, count)?;
             }
             Entry::Section(name) => {
@@ -68,7 +78,8 @@ fn read_entry(cursor: &mut Cursor<'_>) -> Result<Entry, Box<Fault>> {
     if cursor.skip(b"//! variables ") {
         let start = cursor.offset();
         let names = names(cursor)?;
-        if (1..names.len()).any(|i| names[..i].contains(&names[i])) {
+        let mut seen = HashSet::new();
+        if !names.iter().all(|name| seen.insert(name)) {
             return Err(cursor.fault_at(start, "every variable once"));
         }
         return Ok(Entry::Variables(names));

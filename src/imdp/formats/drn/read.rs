@@ -3,12 +3,12 @@
 use super::UNNAMED;
 use super::header::{Header, read_header};
 use super::state_line::{StateNotes, read_labels};
+use crate::files;
 use crate::formats::import::{
     Assembly, AssemblyError, Cursor, Expected, Fault, ImportError, Imported, Judgement, Lines, PendingRow,
     Position, RowFault, Warning, describe, hash_row, read_interval, written_bounds,
 };
-use crate::model::{ActionNames, Rows, StateId};
-use std::fs::File;
+use crate::model::{ActionNames, MemoryError, Rows, StateId};
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
@@ -35,21 +35,17 @@ pub fn import(path: &Path) -> Result<Imported, ImportError> {
 /// Those of [`import`].
 pub fn import_with_progress(path: &Path, progress: &mut dyn FnMut(u64)) -> Result<Imported, ImportError> {
     let io = |error| ImportError::io(path, error);
-    let file = File::open(path).map_err(io)?;
-    let metadata = file.metadata().map_err(io)?;
-    if !metadata.is_file() {
-        return Err(io(std::io::Error::other("it is not a regular file")));
-    }
+    let (file, bytes) = files::open(path).map_err(io)?;
     let mut lines = Lines::new(path, BufReader::with_capacity(1 << 18, file));
-    let header = read_header(&mut lines)?;
+    let header = read_header(&mut lines, bytes)?;
     // A header that lies must not decide how much is allocated.
-    let fits = metadata.len() / SHORTEST_LINE;
+    let fits = bytes / SHORTEST_LINE;
     let expected =
         Expected { states: header.states, choices: header.choices.unwrap_or(fits), transitions: fits };
     let mut body = Body {
         path,
         assembly: Assembly::new(expected)?,
-        notes: StateNotes::new(&header, fits),
+        notes: StateNotes::new(&header, fits)?,
         header,
         row: PendingRow::default(),
         rows: Rows::new(),
@@ -276,9 +272,15 @@ impl Body<'_> {
 }
 
 /// What ends the reading of a line.
-enum LineError {
+pub(super) enum LineError {
     Fault(Box<Fault>),
     Import(ImportError),
+}
+
+impl From<MemoryError> for LineError {
+    fn from(error: MemoryError) -> Self {
+        Self::Import(error.into())
+    }
 }
 
 impl From<Box<Fault>> for LineError {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::labels::read_lab;
 use super::states::read_sta;
 use super::transitions::read_tra;
+use crate::files::{settle, steady};
 use crate::formats::import::{ImportError, Imported};
 use crate::model::StateVariables;
 
@@ -36,19 +37,36 @@ pub fn import_with_progress(
     lab: Option<&Path>,
     progress: &mut (dyn FnMut(u64) + Send),
 ) -> Result<Imported, ImportError> {
-    // A missing file should not be noticed only after minutes of reading.
-    let lab = lab.map_or_else(|| tra.with_extension("lab"), Path::to_owned);
-    if !lab.exists() {
-        return Err(ImportError::NoLabelFile { path: lab });
-    }
-    let beside = || Some(tra.with_extension("sta")).filter(|path| path.exists());
-    let sta: Option<PathBuf> = sta.map(Path::to_owned).or_else(beside);
+    let beside = |extension: &str| tra.with_extension(extension);
+    let files = [
+        tra.to_owned(),
+        sta.map_or_else(|| beside("sta"), Path::to_owned),
+        lab.map_or_else(|| beside("lab"), Path::to_owned),
+    ];
+    let directory = tra.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    // Three files of one writer: what a killed one had decided to write is finished, what is replaced meanwhile is read
+    // again.
+    steady(&files, || {
+        settle(directory).map_err(|error| ImportError::io(directory, error))?;
+        read(&files, sta.is_some(), progress)
+    })
+}
 
+/// Reads the files for transitions, states and labels; that for states may be missing unless it is `given`.
+fn read(
+    [tra, sta, lab]: &[PathBuf; 3],
+    given: bool,
+    progress: &mut (dyn FnMut(u64) + Send),
+) -> Result<Imported, ImportError> {
+    // A missing file should not be noticed only after minutes of reading.
+    if !lab.exists() {
+        return Err(ImportError::NoLabelFile { path: lab.clone() });
+    }
     let (kind, states, transitions) = read_tra(tra, progress)?;
-    let variables = match sta {
-        Some(sta) => read_sta(&sta, states)?,
-        None => StateVariables::default(),
+    let variables = match given || sta.exists() {
+        true => read_sta(sta, states)?,
+        false => StateVariables::default(),
     };
-    let (initial, labels) = read_lab(&lab, states)?;
+    let (initial, labels) = read_lab(lab, states)?;
     transitions.into_model(kind, initial, labels, variables)
 }

@@ -1,16 +1,17 @@
 //! Labels: `0="init" 1="deadlock" 2="goal"`, then `3: 0 2` for every state with a label.
 
-use std::fs::File;
+use std::collections::HashSet;
 use std::io::BufReader;
 use std::path::Path;
 
+use crate::files;
 use crate::formats::import::{Cursor, Fault, ImportError, Lines};
 use crate::model::{Labels, StateSet, require_memory};
 
 /// Reads a `.lab` file for a model of `states` states; returns the initial states and the other labels.
 pub(super) fn read_lab(path: &Path, states: u64) -> Result<(StateSet, Labels), ImportError> {
     const HEADER: &str = "a header that declares labels, `0=\"init\" 1=\"deadlock\"`";
-    let file = File::open(path).map_err(|error| ImportError::io(path, error))?;
+    let (file, _) = files::open(path).map_err(|error| ImportError::io(path, error))?;
     let mut lines = Lines::new(path, BufReader::new(file));
     lines.skip_comments()?;
     let Some(mut cursor) = lines.next()? else {
@@ -43,6 +44,7 @@ pub(super) fn read_lab(path: &Path, states: u64) -> Result<(StateSet, Labels), I
 
 fn read_names(cursor: &mut Cursor<'_>) -> Result<Vec<String>, Box<Fault>> {
     let mut names: Vec<String> = vec![];
+    let mut seen = HashSet::new();
     while names.is_empty() || !cursor.at_line_end() {
         if !names.is_empty() {
             cursor.expect(b' ', "one blank and the next label")?;
@@ -55,7 +57,7 @@ fn read_names(cursor: &mut Cursor<'_>) -> Result<Vec<String>, Box<Fault>> {
         cursor.expect(b'"', "a name in quotes")?;
         let start = cursor.offset();
         let name = cursor.identifier("a name that is an identifier")?;
-        if names.iter().any(|earlier| earlier == name) {
+        if !seen.insert(name) {
             return Err(cursor.fault_at(start, "every label once"));
         }
         cursor.expect(b'"', "`\"` after the name")?;

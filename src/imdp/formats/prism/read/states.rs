@@ -1,15 +1,16 @@
 //! States: `(v1,v2)`, then `0:(3,true)` for every state in order.
 
-use std::fs::File;
+use std::collections::HashSet;
 use std::io::BufReader;
 use std::path::Path;
 
+use crate::files;
 use crate::formats::import::{Cursor, Fault, ImportError, Lines, read_variable_value};
 use crate::model::{StateVariables, VariableValues, require_memory};
 
 /// Reads a `.sta` file for a model of `states` states.
 pub(super) fn read_sta(path: &Path, states: u64) -> Result<StateVariables, ImportError> {
-    let file = File::open(path).map_err(|error| ImportError::io(path, error))?;
+    let (file, _) = files::open(path).map_err(|error| ImportError::io(path, error))?;
     let mut lines = Lines::new(path, BufReader::new(file));
     lines.skip_comments()?;
     let Some(mut cursor) = lines.next()? else {
@@ -43,6 +44,7 @@ pub(super) fn read_sta(path: &Path, states: u64) -> Result<StateVariables, Impor
 
 fn read_names(cursor: &mut Cursor<'_>) -> Result<Vec<String>, Box<Fault>> {
     let mut names: Vec<String> = vec![];
+    let mut seen = HashSet::new();
     cursor.expect(b'(', "`(` and the names of the variables")?;
     while names.is_empty() || !cursor.skip(b")") {
         if !names.is_empty() {
@@ -50,7 +52,7 @@ fn read_names(cursor: &mut Cursor<'_>) -> Result<Vec<String>, Box<Fault>> {
         }
         let start = cursor.offset();
         let name = cursor.identifier("the name of a variable")?;
-        if names.iter().any(|earlier| earlier == name) {
+        if !seen.insert(name) {
             return Err(cursor.fault_at(start, "every variable once"));
         }
         names.push(name.to_owned());

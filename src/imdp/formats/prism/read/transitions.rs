@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::assemble::{Assembler, Header};
 use super::chunks::ChunkReader;
 use super::parse_chunk::{LineShape, parse_chunk};
+use crate::files;
 use crate::formats::import::{ImportError, Lines, Transitions};
 use crate::model::{ModelKind, StateId};
 
@@ -23,24 +24,28 @@ const MOST_IN_FLIGHT: usize = 64;
 /// The shortest transition with its line end, `0 0 1`.
 const SHORTEST_LINE: u64 = 6;
 
+/// States without transitions need no bytes; so many are believed, and one more for every byte.
+const FEW_STATES: u64 = 1 << 16;
+
 /// Reads a `.tra` file; `progress` is told how many bytes have been read.
 pub(super) fn read_tra(
     path: &Path,
     progress: &mut (dyn FnMut(u64) + Send),
 ) -> Result<(ModelKind, u64, Transitions), ImportError> {
     let io = |error| ImportError::io(path, error);
-    let file = File::open(path).map_err(io)?;
-    let metadata = file.metadata().map_err(io)?;
-    if !metadata.is_file() {
-        return Err(io(std::io::Error::other("it is not a regular file")));
-    }
+    let (file, bytes) = files::open(path).map_err(io)?;
     let mut lines = Lines::new(path, BufReader::new(file));
     let (kind, header) = read_header(&mut lines)?;
     // A header that lies must not decide how much is allocated.
-    let fits = (metadata.len() + 1) / SHORTEST_LINE;
+    let fits = (bytes + 1) / SHORTEST_LINE;
     if header.transitions > fits {
-        let expected = format!("at most {fits} transitions in a file of {} bytes", metadata.len());
+        let expected = format!("at most {fits} transitions in a file of {bytes} bytes");
         return Err(lines.refuse(1, expected, header.transitions.to_string()));
+    }
+    let fits = bytes.saturating_add(FEW_STATES);
+    if header.states > fits {
+        let expected = format!("at most {fits} states in a file of {bytes} bytes");
+        return Err(lines.refuse(1, expected, header.states.to_string()));
     }
     let shape = LineShape { kind, states: header.states };
     let mut assembler = Assembler::new(path, header)?;
