@@ -1,6 +1,6 @@
 //! What is promised to happen.
 
-use crate::model_file::Problem;
+use crate::problem::Problem;
 use serde::{Deserialize, Serialize};
 
 /// Reaching the goal in time and avoiding the unsafe region until then.
@@ -27,10 +27,10 @@ pub enum Safety {
 impl Event {
     /// The task of a problem.
     pub fn of(problem: &Problem) -> Self {
-        let group_steps = problem.group_steps as u64;
-        let everywhere = group_steps == 1 || problem.unsafe_.is_empty();
+        let group_steps = problem.group_steps() as u64;
+        let everywhere = group_steps == 1 || problem.unsafe_regions().is_empty();
         Self {
-            horizon: problem.horizon.map(|steps| steps * group_steps),
+            horizon: problem.horizon().map(|steps| steps * group_steps),
             group_steps,
             safety: if everywhere { Safety::EveryStep } else { Safety::GroupedInstants },
         }

@@ -48,7 +48,7 @@ use super::states::{FAILED, REACHED, StateSpace};
 use super::targets::Targets;
 use super::windows::{Shape, Windows, shape_samples};
 use crate::guarantee::SampleEvidence;
-use crate::model_file::Problem;
+use crate::problem::Problem;
 use crate::statistics::{ConfidenceBudget, upper_bound};
 use bounds::{BoundTable, DIGITS, Interval};
 use ground::{Ground, cell_events, intervals};
@@ -95,9 +95,9 @@ impl<'a> PacRows<'a> {
         states: &'a StateSpace,
         outcomes: &'a Outcomes,
     ) -> Result<Self, AbstractionError> {
-        let (grid, samples) = (&problem.grid, &problem.noise.samples);
+        let (grid, samples) = (problem.grid(), &problem.noise().samples);
         let number = samples.len() as u64;
-        let goal_distances = distances_in_cells(targets, &problem.goal, grid);
+        let goal_distances = distances_in_cells(targets, problem.goal(), grid);
         let origins = if placements.shared().is_some() { 1 } else { targets.len() };
         let mut budget = ConfidenceBudget::new(beta);
         let levels = Levels::new(&mut budget, &placements.offset_ranges(grid), origins, &goal_distances)?;
@@ -176,7 +176,7 @@ impl<'a> PacRows<'a> {
     /// What the rows rest on, as one of `sweep` settings that `β` is shared by.
     pub(super) fn evidence(&self, beta: &Rational, sweep: u64) -> SampleEvidence {
         SampleEvidence {
-            number: self.problem.noise.samples.len() as u64,
+            number: self.problem.noise().samples.len() as u64,
             beta: to_f64(beta),
             sweep,
             budget: self.budget.allocations().to_vec(),
@@ -208,7 +208,7 @@ impl<'a> PacRows<'a> {
     }
 
     fn push_row(&self, ground: &Ground<'_>, target: usize, window: usize, rows: &mut Rows) {
-        let grid = &self.problem.grid;
+        let grid = self.problem.grid();
         let Ground { landing, windows, origin, intervals } = ground;
         let (table, cells) = (landing.table(), &windows[window]);
         let (mut meets_goal, mut goal_lower) = (false, 0.0);
@@ -233,7 +233,7 @@ impl<'a> PacRows<'a> {
 
     /// Whether nothing in the window at `origin` is lost.
     fn is_clean(&self, window: &Spread, origin: &[i32]) -> bool {
-        let grid = &self.problem.grid;
+        let grid = self.problem.grid();
         let mut clean = is_inside(window, origin, grid);
         if clean {
             for_each_cell(window, window, origin, grid, |cell, _| {
