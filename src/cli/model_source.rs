@@ -81,17 +81,39 @@ impl LoadedModel {
 /// # Errors
 /// [`CliError::Input`] if nothing usable is there or it is malformed.
 pub(super) fn load(path: &Path, explicit: bool, bars: &Bars) -> Result<LoadedModel, CliError> {
-    const EXPECTED: &str = "a directory written by dynabs-compile or a .tra, .drn, .umb or .dynabs file";
+    const EXPECTED: &str = "a directory written by dynabs-compile or a .tra, .pexp, .drn, .umb, .txt (bmdp-tool), .nc (IntervalMDP.jl) or .dynabs file";
     let shown = path.display();
     if path.is_dir() {
         return steady(&[path.to_owned()], || load_directory(path, explicit, bars));
     }
-    if !path.exists() {
+    let format = Format::of_path(path);
+    if !path.exists() && format != Some(Format::Prism) {
         return Err(CliError::Input(format!("{shown}: found nothing; expected {EXPECTED}")));
     }
-    match Format::of_path(path) {
+    match format {
         Some(format) => load_file(path, format, bars),
-        None => Err(CliError::Input(format!("{shown}: found a file of another kind; expected {EXPECTED}"))),
+        None => Err(CliError::Input(format!(
+            "{shown}: found a file of another kind; expected {EXPECTED}{}",
+            export_command(path)
+        ))),
+    }
+}
+
+/// How to make files of a model in the language of PRISM or Storm; nothing for other files.
+fn export_command(path: &Path) -> String {
+    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    match extension {
+        "prism" | "nm" | "pm" | "sm" | "mdp" | "dtmc" => format!(
+            "\n  This looks like a model in PRISM's language: `prism {} -exportmodel {stem}.all` writes {stem}.tra and what \
+             belongs to it (add -const NAME=VALUE for its constants).",
+            path.display()
+        ),
+        "jani" => format!(
+            "\n  This looks like a JANI model: `storm --jani {} --exportbuild {stem}.drn` writes {stem}.drn.",
+            path.display()
+        ),
+        _ => String::new(),
     }
 }
 
@@ -180,14 +202,12 @@ fn load_file(path: &Path, format: Format, bars: &Bars) -> Result<LoadedModel, Cl
         false => CliError::Input(error.to_string()),
     })?;
     let warnings = imported.warnings.iter().map(ToString::to_string).collect();
-    let files = match format {
-        Format::Prism => {
-            let files = ["tra", "sta", "lab"].map(|extension| path.with_extension(extension));
-            files.into_iter().filter(|path| path.exists()).collect()
-        }
-        _ => vec![path.to_owned()],
-    };
-    let properties = path.with_extension("props");
+    let files = format.files(path);
+    // `m.tra.gz` and `m.tra,sta,lab` have the properties of `m.tra`.
+    let transitions = files.first().map_or(path, PathBuf::as_path);
+    let packed = matches!(transitions.extension().and_then(|e| e.to_str()), Some("gz" | "xz"));
+    let unpacked = if packed { transitions.with_extension("") } else { transitions.to_owned() };
+    let properties = unpacked.with_extension("props");
     let read = snapshot(&files, &properties);
     Ok(LoadedModel { model: imported.model, warnings, properties, files, read, promise: None })
 }

@@ -1,8 +1,7 @@
 //! The members of a tar archive, each of which can be read on its own.
 
 use crate::files;
-use crate::formats::import::{ImportError, Position};
-use flate2::read::MultiGzDecoder;
+use crate::formats::import::{ImportError, Packing, Position};
 use std::collections::HashMap;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -22,7 +21,7 @@ const LONGEST_NAME: u64 = 1 << 16;
 #[derive(Debug)]
 pub(super) struct Archive {
     path: PathBuf,
-    gzip: bool,
+    packing: Packing,
     members: HashMap<String, Member>,
 }
 
@@ -77,25 +76,12 @@ impl Archive {
     pub(super) fn open(path: &Path) -> Result<Self, ImportError> {
         let io = |error| ImportError::io(path, error);
         let (mut file, _) = files::open(path).map_err(io)?;
-        let mut magic = vec![];
-        file.by_ref().take(6).read_to_end(&mut magic).map_err(io)?;
-        file.rewind().map_err(io)?;
-        if magic.starts_with(b"\xfd7zXZ") {
-            return Err(Self::refuse(
-                path,
-                "a tar archive, as it is or compressed with gzip",
-                "compression by xz",
-            ));
-        }
-        let gzip = magic.starts_with(&[0x1f, 0x8b]);
-        let mut archive = Self { path: path.to_owned(), gzip, members: HashMap::new() };
-        let source = BufReader::with_capacity(BUFFER, file);
-        if gzip {
-            let mut rest = archive.list(MultiGzDecoder::new(source))?;
+        let packing = Packing::of(&mut file).map_err(io)?;
+        let mut archive = Self { path: path.to_owned(), packing, members: HashMap::new() };
+        let mut rest = archive.list(BufReader::with_capacity(BUFFER, packing.unpack(file)))?;
+        if packing != Packing::None {
             // Only at its end does the checksum tell whether all of it was right.
             io::copy(&mut rest, &mut io::sink()).map_err(|error| Self::damaged(path, &error))?;
-        } else {
-            archive.list(source)?;
         }
         Ok(archive)
     }
@@ -136,7 +122,7 @@ impl Archive {
                     return Err(Self::refuse(&self.path, "regular files and directories", found));
                 }
             }
-            if self.gzip && member.bytes <= SMALL && kept + member.bytes <= KEPT {
+            if self.packing != Packing::None && member.bytes <= SMALL && kept + member.bytes <= KEPT {
                 let mut content = vec![];
                 entry.read_to_end(&mut content).map_err(damaged)?;
                 if content.len() as u64 == member.bytes {
@@ -155,7 +141,9 @@ impl Archive {
         // What the system says of the disk comes with a code, what is wrong with the content does not.
         match error.raw_os_error() {
             Some(code) => ImportError::io(path, io::Error::from_raw_os_error(code)),
-            None => Self::refuse(path, "a tar archive, as it is or compressed with gzip", error.to_string()),
+            None => {
+                Self::refuse(path, "a tar archive, as it is or compressed with gzip or xz", error.to_string())
+            }
         }
     }
 
@@ -187,14 +175,14 @@ impl Archive {
         }
         let io = |error| ImportError::io(&self.path, error);
         let (mut file, _) = files::open(&self.path).map_err(io)?;
-        let source: Box<dyn Read> = if self.gzip {
-            let mut unpacked = MultiGzDecoder::new(BufReader::with_capacity(BUFFER, file));
+        let source: Box<dyn Read> = if self.packing == Packing::None {
+            file.seek(SeekFrom::Start(*offset)).map_err(io)?;
+            Box::new(file.take(*bytes))
+        } else {
+            let mut unpacked = self.packing.unpack(file);
             let before = io::copy(&mut unpacked.by_ref().take(*offset), &mut io::sink());
             before.map_err(|error| Self::damaged(&self.path, &error))?;
             Box::new(unpacked.take(*bytes))
-        } else {
-            file.seek(SeekFrom::Start(*offset)).map_err(io)?;
-            Box::new(file.take(*bytes))
         };
         Ok(Some(BufReader::with_capacity(BUFFER, source)))
     }

@@ -3,6 +3,7 @@
 use super::super::member;
 use super::archive::Archive;
 use super::index::Index;
+use super::rewards::read_rewards;
 use super::sets::read_set;
 use super::transitions::read_transitions;
 use super::valuations::read_variables;
@@ -10,7 +11,7 @@ use crate::formats::import::{ImportError, Imported, Position, Warning};
 use crate::model::{Labels, StateVariables, require_memory};
 use std::path::Path;
 
-/// Reads an interval MDP or interval DTMC from a UMB archive, compressed with gzip or not.
+/// Reads an interval MDP or interval DTMC from a UMB archive, as it is or compressed with gzip or xz.
 ///
 /// Reads what [`UmbWriter`](crate::formats::umb::UmbWriter), PRISM, Storm and `umbi` write. Members that
 /// may be left out have the values of the standard. A double stands for its shortest decimal when sums are
@@ -19,7 +20,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`ImportError`] with the member and the entry of the first thing that is not as the format wants it.
-/// Rewards, observations, games, continuous time and rational numbers are refused by name.
+/// Observations, games, continuous time and rational numbers are refused by name.
 pub fn import(path: &Path) -> Result<Imported, ImportError> {
     import_with_progress(path, &mut |_| {})
 }
@@ -67,6 +68,8 @@ pub fn import_with_progress(path: &Path, progress: &mut dyn FnMut(u64)) -> Resul
         None => StateVariables::default(),
     };
     let mut imported = transitions.into_model(index.kind, initial, labels, variables)?;
+    imported.model =
+        imported.model.with_rewards(read_rewards(&archive, &index, without_choices.as_ref())?)?;
     imported.warnings.extend(index.warnings);
     let foreign: Vec<_> = archive.names().filter(|name| !is_standard(name)).collect();
     if let Some(name) = foreign.iter().min() {
