@@ -1,15 +1,16 @@
 //! `dynabs-compile`: from a model file to PRISM files.
 
-use super::solve::{LimitArguments, Wanted, answer};
+use super::solve::LimitArguments;
 use crate::results::{PropertyResult, exit_code, table};
 use crate::summary::summary;
 use crate::{Bars, CliError, EncodingName, FormatName, print, use_threads, warn};
 use clap::Parser;
 use dynabs::abstraction::{Abstraction, compile};
 use dynabs::model_file::{Document, SetArgument, json_schema, starter_model};
-use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, write_run};
+use dynabs::problem::Problem;
+use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, solution_options, write_run};
 use imdp::files::{self, Outputs};
-use imdp::solver::Pruned;
+use imdp::solver::{Answer, Pruned};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -156,6 +157,7 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
     bars.catch_interrupts();
     let mut results = Vec::new();
     let mut pruning = None;
+    let mut solution = None;
     if arguments.prune {
         let solving = Instant::now();
         let (result, report) = prune(&mut abstraction, &bars)?;
@@ -163,6 +165,13 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
         notes.push(format!("{}; {}", report.kept, report.scope));
         pruning = Some(report);
         phases.push(("pruning", solving.elapsed()));
+    }
+    if arguments.solve && !arguments.prune {
+        let solving = Instant::now();
+        let (answer, result) = solve(&problem, &abstraction, &bars)?;
+        results.push(result);
+        solution = Some(answer.solution);
+        phases.push(("solving", solving.elapsed()));
     }
     let mut manifest = Manifest::new(&document, &source, &problem, &abstraction);
     manifest.set.clone_from(&arguments.set);
@@ -179,16 +188,10 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
             },
             encoding: arguments.encoding.into(),
             force: arguments.force,
+            solution: solution.as_ref(),
         };
         manifest = write_run(output, &document, &problem, &abstraction, manifest, options, &*bars)?;
         phases.push(("files", writing.elapsed()));
-    }
-    if arguments.solve && !arguments.prune {
-        let limits = LimitArguments::default();
-        let solving = Instant::now();
-        let (model, property) = (&abstraction.model, &abstraction.property);
-        results.push(answer(model, property, &limits, Wanted::default(), &bars)?.1);
-        phases.push(("solving", solving.elapsed()));
     }
     for result in &mut results {
         let (guarantee, bounds) = (&abstraction.guarantee, [result.lower, result.upper]);
@@ -197,6 +200,21 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
     }
     report(arguments, &manifest, &phases, &results)?;
     Ok(exit_code(&results))
+}
+
+/// Solves the task, with what controllers and reports need later.
+fn solve(
+    problem: &Problem,
+    abstraction: &Abstraction,
+    bars: &Bars,
+) -> Result<(Answer, PropertyResult), CliError> {
+    let start = Instant::now();
+    let (model, property) = (&abstraction.model, &abstraction.property);
+    let answer = LimitArguments::default()
+        .with_options(bars, |options| Answer::new(model, property, &solution_options(problem, options)));
+    let answer = answer.map_err(|error| CliError::Input(format!("{property}: {error}")))?;
+    let result = PropertyResult::new(property, &answer, start.elapsed());
+    Ok((answer, result))
 }
 
 /// Replaces the model by what an optimal policy needs of it.
