@@ -14,6 +14,7 @@ mod crosscheck_storm;
 mod diff;
 mod formats;
 mod import;
+mod intervals;
 mod native;
 mod open;
 mod output;
