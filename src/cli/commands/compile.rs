@@ -6,7 +6,7 @@ use crate::summary::summary;
 use crate::{Bars, CliError, EncodingName, FormatName, print, use_threads};
 use clap::Parser;
 use dynabs::abstraction::{Abstraction, compile};
-use dynabs::model_file::{Document, Problem, SetArgument, json_schema, starter_model};
+use dynabs::model_file::{Document, SetArgument, json_schema, starter_model};
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, write_run};
 use imdp::solver::Pruned;
 use serde_json::{Value, json};
@@ -146,7 +146,7 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
     }
     let source = read_model(path)?;
     let (document, mut notes) = configure(path, &source, arguments)?;
-    let problem = Problem::from_document(&document)?;
+    let problem = document.problem()?;
     let mut phases = vec![("model file", start.elapsed())];
 
     let mut abstraction =

@@ -8,8 +8,8 @@ use super::states::{FAILED, REACHED, StateSpace, labels};
 use super::steering::Steering;
 use super::targets::Targets;
 use super::{AbstractionError, reference};
-use crate::model_file::{Probabilities, Problem};
 use crate::partition::{CellId, CellKind, Grid};
+use crate::problem::{Probabilities, Problem};
 use crate::statistics::Allocation;
 use crate::system::FeedbackLaw;
 use imdp::model::{
@@ -75,20 +75,20 @@ impl Clock {
 /// [`AbstractionError`] if nothing is enabled, the samples are too few or the model too large.
 pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction, AbstractionError> {
     let mut clock = Clock { start: Instant::now(), phases: vec![] };
-    let grid = &problem.grid;
+    let grid = problem.grid();
     let steering = Steering::new(problem)?;
     clock.lap("law");
 
     let enabled = steering.enabled(problem, progress)?;
     clock.lap("enabled actions");
 
-    let is_pac = matches!(problem.probabilities, Probabilities::Pac { .. });
+    let is_pac = matches!(problem.probabilities(), Probabilities::Pac { .. });
     let states = state_space(problem);
     let Steering { targets, law, extent, .. } = steering;
     let choices = choices(problem, &states, &enabled);
     let blocked = states.select(|state| is_blocked(problem, &states, &choices, state));
     let tolerance = is_pac.then(|| law.steering_error(&extent));
-    let placements = Placements::new(&problem.noise.samples, grid, &targets, tolerance);
+    let placements = Placements::new(&problem.noise().samples, grid, &targets, tolerance);
     clock.lap("choices");
 
     let (reached, failed) = outcome_states(problem, &states, is_pac);
@@ -99,15 +99,15 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
             rows,
             choices: choices.clone(),
             actions: ActionNames::OfRow,
-            initial: states.initial(problem.initial_cell, &problem.labels),
+            initial: states.initial(problem.initial_cell(), problem.labels()),
             labels: labels(blocked.clone(), reached.clone(), failed.clone()),
             variables: states.variables(grid),
         })
     };
-    let (rows, guarantee) = match &problem.probabilities {
+    let (rows, guarantee) = match problem.probabilities() {
         Probabilities::Pac { beta, discard } => {
             let is_lost = |cell| blocked.contains(states.of_cell(cell) as usize);
-            let outcomes = Outcomes::new(&problem.labels, is_lost);
+            let outcomes = Outcomes::new(problem.labels(), is_lost);
             let statement = (beta, *discard as usize);
             let pac = PacRows::new(problem, statement, &targets, placements, &states, &outcomes)?;
             let rows = pac.rows(progress);
@@ -172,7 +172,7 @@ impl Abstraction {
         let blocked = states.select(|state| is_blocked(problem, &states, model.choices(), state));
         Ok(Self {
             property: reach_avoid(problem),
-            state_of_cell: state_of_cell(&problem.grid, &states),
+            state_of_cell: state_of_cell(problem.grid(), &states),
             warnings: warnings(problem, blocked.count_ones(..)),
             model,
             targets: steering.targets,
@@ -184,9 +184,9 @@ impl Abstraction {
 }
 
 fn state_space(problem: &Problem) -> StateSpace {
-    match problem.probabilities {
-        Probabilities::Pac { .. } => StateSpace::merged(&problem.labels),
-        Probabilities::Reference { .. } => StateSpace::complete(&problem.grid),
+    match problem.probabilities() {
+        Probabilities::Pac { .. } => StateSpace::merged(problem.labels()),
+        Probabilities::Reference { .. } => StateSpace::complete(problem.grid()),
     }
 }
 
@@ -200,7 +200,7 @@ fn choices(problem: &Problem, states: &StateSpace, enabled: &EnabledActions) -> 
     let mut counts = enabled.ranges_per_cell.iter();
     let mut ranges = enabled.ranges.as_slice();
     for (_, cell) in states.cells() {
-        if problem.labels.kind(cell) != CellKind::Ordinary {
+        if problem.labels().kind(cell) != CellKind::Ordinary {
             // The published tool draws goal and unsafe cells without choices.
             builder.finish_state();
             continue;
@@ -221,7 +221,7 @@ fn choices(problem: &Problem, states: &StateSpace, enabled: &EnabledActions) -> 
 /// Whether a state is an ordinary cell with nothing enabled.
 fn is_blocked(problem: &Problem, states: &StateSpace, choices: &Choices, state: StateId) -> bool {
     choices.is_absorbing(state)
-        && states.cell(state).is_some_and(|cell| problem.labels.kind(cell) == CellKind::Ordinary)
+        && states.cell(state).is_some_and(|cell| problem.labels().kind(cell) == CellKind::Ordinary)
 }
 
 fn outcome_states(
@@ -232,7 +232,7 @@ fn outcome_states(
     let of_kind = |kind, heads: &[StateId]| {
         states.select(|state| match states.cell(state) {
             None => heads.contains(&state),
-            Some(cell) => problem.labels.kind(cell) == kind,
+            Some(cell) => problem.labels().kind(cell) == kind,
         })
     };
     if is_pac {
@@ -247,9 +247,9 @@ fn reach_avoid(problem: &Problem) -> Property {
     let path = PathFormula::Until {
         left: StateFormula::negation(StateFormula::label("failed")),
         right: StateFormula::label("reached"),
-        steps: problem.horizon,
+        steps: problem.horizon(),
     };
-    match &problem.threshold {
+    match problem.threshold() {
         None => Property::value(Resolution::Pmaxmin, path),
         Some(probability) => {
             let comparison = ThresholdComparison::AtLeast;
@@ -262,13 +262,13 @@ fn reach_avoid(problem: &Problem) -> Property {
 fn warnings(problem: &Problem, blocked: usize) -> Vec<String> {
     let mut warnings = Vec::new();
     if blocked > 0 {
-        let ordinary = problem.labels.count(CellKind::Ordinary);
+        let ordinary = problem.labels().count(CellKind::Ordinary);
         warnings.push(format!(
             "in {blocked} of {ordinary} ordinary cells no action is enabled (label \"deadlock\"): their value is 0"
         ));
     }
-    if let Some(cell) = problem.initial_cell
-        && problem.labels.kind(cell) == CellKind::Unsafe
+    if let Some(cell) = problem.initial_cell()
+        && problem.labels().kind(cell) == CellKind::Unsafe
     {
         warnings.push("/initial_state: the cell of the initial state is unsafe".to_owned());
     }

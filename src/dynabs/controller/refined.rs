@@ -3,8 +3,8 @@
 use super::law::InputLaw;
 use super::schedule::{Entry, Schedule};
 use crate::abstraction::{Abstraction, Targets};
-use crate::model_file::Problem;
 use crate::partition::{CellId, CellKind, CellLookup};
+use crate::problem::Problem;
 use imdp::solver::Answer;
 
 /// A policy of the interval MDP refined to the system: piecewise affine feedback `c(x, k)`.
@@ -71,11 +71,11 @@ impl Controller {
         let policy = answer.solution.policy.as_ref().ok_or(ControllerError::NoPolicy)?;
         let bound = |&state: &u32| answer.values.lower[state as usize];
         Ok(Self {
-            lookup: CellLookup::new(&problem.grid),
-            kinds: problem.labels.iter().map(|(_, kind)| kind).collect(),
-            horizon: problem.horizon,
-            group_steps: problem.group_steps,
-            step_inputs: problem.step_system.input_dimension(),
+            lookup: CellLookup::new(problem.grid()),
+            kinds: problem.labels().iter().map(|(_, kind)| kind).collect(),
+            horizon: problem.horizon(),
+            group_steps: problem.group_steps(),
+            step_inputs: problem.step_system().input_dimension(),
             law: InputLaw::new(&abstraction.law),
             points: points(&abstraction.targets),
             schedule: Schedule::new(abstraction, policy),

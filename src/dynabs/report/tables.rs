@@ -38,7 +38,7 @@ pub(super) fn simulation(material: &Material<'_>) -> String {
     let share = |n: u64| short(n as f64 / tally.runs as f64);
     let mut rows = vec![row(&["satisfied the task", &count(tally.satisfied), &share(tally.satisfied)])];
     rows.extend(ends.iter().filter(|(_, n)| *n > 0).map(|(name, n)| row(&[name, &count(*n), &share(*n)])));
-    if material.problem().group_steps > 1 {
+    if material.problem().group_steps() > 1 {
         let n = tally.unsafe_between;
         rows.push(row(&[
             "met the unsafe region between grouped instants (not covered)",
@@ -70,7 +70,7 @@ pub(super) fn simulation(material: &Material<'_>) -> String {
 /// What was built and how long it took here.
 pub(super) fn sizes(material: &Material<'_>) -> String {
     let manifest = &material.run.manifest;
-    let grid = &material.problem().grid;
+    let grid = material.problem().grid();
     let per_axis: Vec<_> = grid.axes().iter().map(|axis| axis.cells().to_string()).collect();
     let factors = if per_axis.len() > 1 { per_axis.join(" × ") + " = " } else { String::new() };
     let mut rows = vec![

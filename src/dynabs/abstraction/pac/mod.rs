@@ -47,7 +47,7 @@ use super::states::{FAILED, REACHED, StateSpace};
 use super::targets::Targets;
 use super::windows::{Shape, Windows, shape_samples};
 use super::{AbstractionError, Guarantee};
-use crate::model_file::Problem;
+use crate::problem::Problem;
 use crate::statistics::{ConfidenceBudget, upper_bound};
 use bounds::{BoundTable, DIGITS, Interval};
 use ground::{Ground, cell_events, intervals};
@@ -94,9 +94,9 @@ impl<'a> PacRows<'a> {
         states: &'a StateSpace,
         outcomes: &'a Outcomes,
     ) -> Result<Self, AbstractionError> {
-        let (grid, samples) = (&problem.grid, &problem.noise.samples);
+        let (grid, samples) = (problem.grid(), &problem.noise().samples);
         let number = samples.len() as u64;
-        let goal_distances = distances_in_cells(targets, &problem.goal, grid);
+        let goal_distances = distances_in_cells(targets, problem.goal(), grid);
         let origins = if placements.shared().is_some() { 1 } else { targets.len() };
         let mut budget = ConfidenceBudget::new(beta.clone());
         let levels = Levels::new(&mut budget, &placements.offset_ranges(grid), origins, &goal_distances)?;
@@ -205,7 +205,7 @@ impl<'a> PacRows<'a> {
     }
 
     fn push_row(&self, ground: &Ground<'_>, target: usize, window: usize, rows: &mut Rows) {
-        let grid = &self.problem.grid;
+        let grid = self.problem.grid();
         let Ground { landing, windows, origin, intervals } = ground;
         let (table, cells) = (landing.table(), &windows[window]);
         let (mut meets_goal, mut goal_lower) = (false, 0.0);
@@ -230,7 +230,7 @@ impl<'a> PacRows<'a> {
 
     /// Whether nothing in the window at `origin` is lost.
     fn is_clean(&self, window: &Spread, origin: &[i32]) -> bool {
-        let grid = &self.problem.grid;
+        let grid = self.problem.grid();
         let mut clean = is_inside(window, origin, grid);
         if clean {
             for_each_cell(window, window, origin, grid, |cell, _| {

@@ -1,8 +1,8 @@
 //! What is promised about a controller, in words and numbers.
 
 use crate::controller::Controller;
-use crate::model_file::{Probabilities, Problem};
 use crate::partition::CellKind;
+use crate::problem::{Probabilities, Problem};
 use imdp::numeric::{Rational, round_decimal_down, shortest_decimal, to_f64};
 use num_traits::One;
 use serde::Serialize;
@@ -29,22 +29,22 @@ pub struct Promise {
 impl Promise {
     /// What is promised about the controller of a problem.
     pub fn new(problem: &Problem, controller: &Controller) -> Self {
-        let confidence = match &problem.probabilities {
+        let confidence = match problem.probabilities() {
             Probabilities::Pac { beta, .. } => Some(to_f64(&(Rational::one() - beta))),
             Probabilities::Reference { .. } => None,
         };
-        let group_steps = problem.group_steps as u64;
-        let ordinary = problem.labels.iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
+        let group_steps = problem.group_steps() as u64;
+        let ordinary = problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
         Self {
             mode: if confidence.is_some() { "pac" } else { "reference" },
             confidence,
-            samples: problem.noise.samples.len() as u64,
-            initial_state: problem.initial_state.clone(),
-            bound: match problem.initial_cell {
+            samples: problem.noise().samples.len() as u64,
+            initial_state: problem.initial_state().map(<[f64]>::to_vec),
+            bound: match problem.initial_cell() {
                 Some(cell) => controller.bound(cell),
                 None => ordinary.map(|(cell, _)| controller.bound(cell)).fold(1.0, f64::min),
             },
-            horizon: problem.horizon.map(|steps| steps * group_steps),
+            horizon: problem.horizon().map(|steps| steps * group_steps),
             group_steps,
         }
     }
