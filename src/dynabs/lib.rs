@@ -63,6 +63,7 @@ pub mod abstraction;
 pub mod controller;
 mod diagnostic;
 pub mod geometry;
+pub mod guarantee;
 pub mod landing;
 pub mod linear_algebra;
 pub mod model_file;

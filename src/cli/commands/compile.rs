@@ -201,6 +201,11 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
         results.push(answer(model, property, &limits, Wanted::default(), &bars)?.1);
         phases.push(("solving", solving.elapsed()));
     }
+    for result in &mut results {
+        let (guarantee, bounds) = (&abstraction.guarantee, [result.lower, result.upper]);
+        let claim = guarantee.claim(&abstraction.property, &abstraction.model, bounds);
+        result.guarantee = Some(claim.map_err(|error| CliError::Failure(error.to_string()))?);
+    }
     report(arguments, &manifest, &phases, &results)?;
     Ok(exit_code(&results))
 }

@@ -8,13 +8,15 @@ use super::states::{FAILED, REACHED, StateSpace, labels};
 use super::steering::Steering;
 use super::targets::Targets;
 use super::{AbstractionError, reference};
+use crate::guarantee::{Event, Evidence, Guarantee};
 use crate::partition::{CellId, CellKind, Grid};
 use crate::problem::{Probabilities, Problem};
-use crate::statistics::Allocation;
 use crate::system::FeedbackLaw;
 use imdp::model::{
     ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, ModelKind, Parts, RowRange, Rows, StateId,
+    StateSet,
 };
+use imdp::numeric::Rational;
 use imdp::progress::Progress;
 use imdp::property::{PathFormula, Property, Resolution, StateFormula, Threshold, ThresholdComparison};
 use imdp::solver::{Answer, SolverOptions};
@@ -33,23 +35,12 @@ pub struct Abstraction {
     pub targets: Targets,
     /// The law that steers to them.
     pub law: FeedbackLaw,
-    /// What the intervals promise; `None` in `reference` mode, which promises nothing.
-    pub guarantee: Option<Guarantee>,
+    /// What the intervals promise, which is nothing in `reference` mode.
+    pub guarantee: Guarantee,
     /// How long each phase took.
     pub phases: Vec<(&'static str, Duration)>,
     /// What the user should know.
     pub warnings: Vec<String>,
-}
-
-/// What the intervals of a model promise, and what it rests on.
-#[derive(Clone, Debug)]
-pub struct Guarantee {
-    /// The probability that some claim fails, at most.
-    pub beta: f64,
-    /// What the budget was spent on.
-    pub budget: Vec<Allocation>,
-    /// The bound on the mass outside the window of cells that a row lists.
-    pub unseen_mass: f64,
 }
 
 /// How long to look for values by which windows are chosen: a better choice is not worth more.
@@ -91,7 +82,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
     let placements = Placements::new(&problem.noise().samples, grid, &targets, tolerance);
     clock.lap("choices");
 
-    let (reached, failed) = outcome_states(problem, &states, is_pac);
+    let (reached, failed) = outcome_states(problem, &states, &blocked, is_pac);
     let property = reach_avoid(problem);
     let model_of = |rows: Rows| -> Result<IntervalMdp, ImdpError> {
         IntervalMdp::new(Parts {
@@ -104,23 +95,24 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
             variables: states.variables(grid),
         })
     };
-    let (rows, guarantee) = match problem.probabilities() {
-        Probabilities::Pac { beta, discard } => {
+    let (rows, evidence) = match problem.probabilities() {
+        Probabilities::Pac { beta, sweep, discard } => {
             let is_lost = |cell| blocked.contains(states.of_cell(cell) as usize);
             let outcomes = Outcomes::new(problem.labels(), is_lost);
-            let statement = (beta, *discard as usize);
-            let pac = PacRows::new(problem, statement, &targets, placements, &states, &outcomes)?;
+            let own = beta / Rational::from_integer((*sweep).into());
+            let pac =
+                PacRows::new(problem, (own, *discard as usize), &targets, placements, &states, &outcomes)?;
             let rows = pac.rows(progress);
             clock.lap("rows");
             let rows = pac.better_rows(&scout(&model_of(rows)?, &property)?, progress);
             clock.lap("choice of windows");
-            (rows, Some(pac.guarantee()))
+            (rows, Evidence::Samples(pac.evidence(beta, *sweep)))
         }
         Probabilities::Reference { beta_per_interval } => {
             let rows =
                 reference::build(problem, *beta_per_interval, &targets, placements, &states, progress)?;
             clock.lap("rows");
-            (rows, None)
+            (rows, Evidence::Published { beta_per_interval: *beta_per_interval })
         }
     };
     let warnings = warnings(problem, blocked.count_ones(..));
@@ -132,7 +124,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
         state_of_cell: state_of_cell(grid, &states),
         targets,
         law,
-        guarantee,
+        guarantee: Guarantee { event: Event::of(problem), evidence },
         phases: clock.phases,
         warnings,
     })
@@ -152,17 +144,18 @@ impl Abstraction {
     /// allows, so that whatever a policy chooses is safe to apply.
     ///
     /// # Errors
-    /// [`AbstractionError::Foreign`] if the model is another problem's.
+    /// [`AbstractionError::Foreign`] if the model or what is promised of it is another problem's.
     pub fn reopen(
         problem: &Problem,
         model: IntervalMdp,
-        guarantee: Option<Guarantee>,
+        guarantee: Guarantee,
         progress: &dyn Progress,
     ) -> Result<Self, AbstractionError> {
         let mut clock = Clock { start: Instant::now(), phases: vec![] };
         let steering = Steering::new(problem)?;
         let states = state_space(problem);
-        let same = model.num_states() == states.len()
+        let same = guarantee.event == Event::of(problem)
+            && model.num_states() == states.len()
             && model.rows().len() == steering.targets.len()
             && *model.choices() == choices(problem, &states, &steering.enabled(problem, progress)?);
         if !same {
@@ -224,11 +217,13 @@ fn is_blocked(problem: &Problem, states: &StateSpace, choices: &Choices, state: 
         && states.cell(state).is_some_and(|cell| problem.labels().kind(cell) == CellKind::Ordinary)
 }
 
+/// The states that are labelled `reached` and `failed`.
 fn outcome_states(
     problem: &Problem,
     states: &StateSpace,
+    blocked: &StateSet,
     is_pac: bool,
-) -> (imdp::model::StateSet, imdp::model::StateSet) {
+) -> (StateSet, StateSet) {
     let of_kind = |kind, heads: &[StateId]| {
         states.select(|state| match states.cell(state) {
             None => heads.contains(&state),
@@ -236,7 +231,10 @@ fn outcome_states(
         })
     };
     if is_pac {
-        (of_kind(CellKind::Goal, &[REACHED]), of_kind(CellKind::Unsafe, &[FAILED]))
+        // A run that starts in a cell in which nothing is enabled is over.
+        let mut failed = of_kind(CellKind::Unsafe, &[FAILED]);
+        failed.union_with(blocked);
+        (of_kind(CellKind::Goal, &[REACHED]), failed)
     } else {
         (of_kind(CellKind::Goal, &[2]), of_kind(CellKind::Unsafe, &[0, 1]))
     }

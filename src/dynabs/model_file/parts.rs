@@ -235,18 +235,19 @@ fn probabilities(spec: &ProbabilitiesSpec) -> Result<Probabilities, Diagnostic> 
             "both confidence and beta",
             "one of them: beta = 1 − confidence",
         )),
-        (Mode::Pac, ProbabilitiesSpec { confidence, beta, discard, .. }) => {
+        (Mode::Pac, ProbabilitiesSpec { confidence, beta, sweep, discard, .. }) => {
             let pac = match beta {
                 Some(beta) => Probabilities::with_beta(*beta),
                 None => Probabilities::with_confidence(confidence.unwrap_or(0.99)),
             };
-            Ok(pac?.discarding(discard.unwrap_or(0)))
+            pac?.discarding(discard.unwrap_or(0)).among(sweep.unwrap_or(1))
         }
         (Mode::Reference, ProbabilitiesSpec { confidence: Some(_), .. }) => {
             foreign("confidence", "reference")
         }
         (Mode::Reference, ProbabilitiesSpec { beta: Some(_), .. }) => foreign("beta", "reference"),
         (Mode::Reference, ProbabilitiesSpec { discard: Some(_), .. }) => foreign("discard", "reference"),
+        (Mode::Reference, ProbabilitiesSpec { sweep: Some(_), .. }) => foreign("sweep", "reference"),
         (Mode::Reference, ProbabilitiesSpec { beta_per_interval, .. }) => {
             Probabilities::reference(beta_per_interval.unwrap_or(0.01))
         }

@@ -11,6 +11,8 @@ pub enum Probabilities {
     Pac {
         /// The failure probability, exactly.
         beta: Rational,
+        /// How many settings are compiled with these samples: each may spend `beta / sweep`.
+        sweep: u64,
         /// How many of the farthest samples are left out of the cells that rows list.
         discard: u64,
     },
@@ -24,7 +26,7 @@ pub enum Probabilities {
 impl Default for Probabilities {
     /// Jointly valid with probability 0.99.
     fn default() -> Self {
-        Self::Pac { beta: Rational::new(1.into(), 100.into()), discard: 0 }
+        Self::Pac { beta: Rational::new(1.into(), 100.into()), sweep: 1, discard: 0 }
     }
 }
 
@@ -35,7 +37,7 @@ impl Probabilities {
     /// A [`Diagnostic`] if it is not strictly between 0 and 1.
     pub fn with_confidence(confidence: f64) -> Result<Self, Diagnostic> {
         let beta = Rational::one() - in_unit("confidence", confidence)?;
-        Ok(Self::Pac { beta, discard: 0 })
+        Ok(Self::Pac { beta, sweep: 1, discard: 0 })
     }
 
     /// Intervals that fail to hold together with probability at most `beta`.
@@ -43,7 +45,7 @@ impl Probabilities {
     /// # Errors
     /// A [`Diagnostic`] if it is not strictly between 0 and 1.
     pub fn with_beta(beta: f64) -> Result<Self, Diagnostic> {
-        Ok(Self::Pac { beta: in_unit("beta", beta)?, discard: 0 })
+        Ok(Self::Pac { beta: in_unit("beta", beta)?, sweep: 1, discard: 0 })
     }
 
     /// The published tool's intervals; not a guarantee.
@@ -61,8 +63,24 @@ impl Probabilities {
     #[must_use]
     pub fn discarding(self, count: u64) -> Self {
         match self {
-            Self::Pac { beta, .. } => Self::Pac { beta, discard: count },
+            Self::Pac { beta, sweep, .. } => Self::Pac { beta, sweep, discard: count },
             Self::Reference { .. } => self,
+        }
+    }
+
+    /// Shares the failure probability among this many settings that are compiled with the same samples.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if there are none.
+    pub fn among(self, settings: u64) -> Result<Self, Diagnostic> {
+        match self {
+            Self::Pac { .. } if settings == 0 => Err(Diagnostic::at(
+                "/probabilities/sweep",
+                "0",
+                "the number of settings that are compiled with these samples, at least 1",
+            )),
+            Self::Pac { beta, discard, .. } => Ok(Self::Pac { beta, sweep: settings, discard }),
+            Self::Reference { .. } => Ok(self),
         }
     }
 }

@@ -40,19 +40,20 @@ mod bounds;
 mod ground;
 mod levels;
 
+use super::AbstractionError;
 use super::landing::{RegionCounts, Spread};
 use super::landings::{Landings, Placements, for_each_cell, is_inside};
 use super::outcomes::{Outcome, Outcomes};
 use super::states::{FAILED, REACHED, StateSpace};
 use super::targets::Targets;
 use super::windows::{Shape, Windows, shape_samples};
-use super::{AbstractionError, Guarantee};
+use crate::guarantee::SampleEvidence;
 use crate::problem::Problem;
 use crate::statistics::{ConfidenceBudget, upper_bound};
 use bounds::{BoundTable, DIGITS, Interval};
 use ground::{Ground, cell_events, intervals};
 use imdp::model::{Rows, require_memory};
-use imdp::numeric::{Rational, round_decimal_down, round_decimal_up};
+use imdp::numeric::{Rational, round_decimal_down, round_decimal_up, to_f64};
 use imdp::progress::Progress;
 use imdp::solver::worst_expectations;
 use levels::{Levels, distances_in_cells};
@@ -85,10 +86,10 @@ pub(super) struct PacRows<'a> {
 }
 
 impl<'a> PacRows<'a> {
-    /// Spends `β` and counts; the `discard` farthest samples are left out of all windows.
+    /// Spends `beta` and counts; the `discard` farthest samples are left out of all windows.
     pub(super) fn new(
         problem: &'a Problem,
-        (beta, discard): (&Rational, usize),
+        (beta, discard): (Rational, usize),
         targets: &'a Targets,
         placements: Placements<'a>,
         states: &'a StateSpace,
@@ -98,7 +99,7 @@ impl<'a> PacRows<'a> {
         let number = samples.len() as u64;
         let goal_distances = distances_in_cells(targets, problem.goal(), grid);
         let origins = if placements.shared().is_some() { 1 } else { targets.len() };
-        let mut budget = ConfidenceBudget::new(beta.clone());
+        let mut budget = ConfidenceBudget::new(beta);
         let levels = Levels::new(&mut budget, &placements.offset_ranges(grid), origins, &goal_distances)?;
 
         let shape = Shape::learn(samples, grid);
@@ -172,10 +173,12 @@ impl<'a> PacRows<'a> {
         })
     }
 
-    /// What the rows promise.
-    pub(super) fn guarantee(&self) -> Guarantee {
-        Guarantee {
-            beta: self.budget.total(),
+    /// What the rows rest on, as one of `sweep` settings that `β` is shared by.
+    pub(super) fn evidence(&self, beta: &Rational, sweep: u64) -> SampleEvidence {
+        SampleEvidence {
+            number: self.problem.noise().samples.len() as u64,
+            beta: to_f64(beta),
+            sweep,
             budget: self.budget.allocations().to_vec(),
             unseen_mass: self.unseen.first().copied().unwrap_or(1.0),
         }
