@@ -132,7 +132,7 @@ impl Tape {
         };
         self.nodes.iter().zip(slots).find_map(|(&id, value)| {
             let mut operands = graph.operands(id).into_iter().flatten().filter_map(of);
-            let last = operands.clone().last()?;
+            let last = operands.clone().next_back()?;
             (!value.is_bounded() && operands.all(Interval::is_bounded)).then_some((id, last))
         })
     }

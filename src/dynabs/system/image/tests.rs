@@ -104,7 +104,10 @@ fn feedback_contracts_the_image() {
     let plain = images(&mode, &Feedback::none(1, &grid), &grid, true, &inputs);
     let feedback = Feedback::new(matrix(1, &[0.0, 1.0]), &grid);
     let steered = images(&mode, &feedback, &grid, true, &inputs);
-    let width = |images: &Images, j| (|(first, last)| last - first + 1)(range(images, 0, j, &[14, 14]));
+    let width = |images: &Images, j| {
+        let (first, last) = range(images, 0, j, &[14, 14]);
+        last - first + 1
+    };
     assert_eq!((width(&plain, 0), width(&plain, 1)), (2, 1));
     assert_eq!((width(&steered, 0), width(&steered, 1)), (2, 1));
     assert_eq!(feedback.margins(), [from_decimal(0.25).unwrap()]);
