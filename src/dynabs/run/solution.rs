@@ -1,5 +1,6 @@
 //! The solution that a run holds, and what is wanted of one.
 
+use super::appearance::SOLUTION;
 use super::files::RunFiles;
 use super::open::OpenError;
 use super::write::NATIVE_MODEL;
@@ -8,9 +9,6 @@ use imdp::model::IntervalMdp;
 use imdp::property::Property;
 use imdp::solution_file;
 use imdp::solver::{Solution, SolverOptions, Status};
-
-/// The name of the solution in a run's directory.
-pub(super) const SOLUTION: &str = "solution.bin";
 
 /// The most grouped steps for which values are kept.
 const MOST_STEPS: u64 = 60;

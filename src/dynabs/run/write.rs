@@ -1,9 +1,9 @@
 //! Writing all files of a run.
 
-use super::appearance::{NOISE, PROBLEM};
+use super::appearance::{NOISE, PROBLEM, SOLUTION};
 use super::manifest::Manifest;
 use super::row_states::RowStatesReport;
-use super::solution::{SOLUTION, is_final};
+use super::solution::is_final;
 use super::staging::{RunDirectoryError, Staging};
 use crate::abstraction::Abstraction;
 use crate::model_file::Document;
