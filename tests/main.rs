@@ -16,6 +16,7 @@ mod diff;
 mod formats;
 mod guarantee;
 mod import;
+mod inputs;
 mod intervals;
 mod native;
 mod noise_masses;
