@@ -4,6 +4,7 @@ use super::simulation_noise::ChosenNoise;
 use super::{CliError, thousands};
 use dynabs::controller::export::{Promise, lower_bound_text};
 use dynabs::controller::{Controller, Frequency, Tally};
+use dynabs::model_file::Safety;
 use dynabs::run::Run;
 use imdp::numeric::{Rational, from_decimal, shortest_decimal, to_f64};
 use num_traits::One;
@@ -24,8 +25,12 @@ pub(super) struct Report {
     bound: f64,
     /// The confidence of the promise; none in reference mode, which promises nothing.
     promise_confidence: Option<f64>,
-    /// In the true sets.
+    /// When the unsafe region is to be avoided.
+    safety: Safety,
+    /// In the true sets, as promised.
     satisfied: Frequency,
+    /// With everything unsafe avoided at every original step.
+    satisfied_at_every_step: Frequency,
     /// In goal cells.
     reached: Frequency,
     contradiction: bool,
@@ -53,7 +58,8 @@ impl Report {
         // Of the decimal that was written: 0.01 for 0.99.
         let alpha = from_decimal(confidence).map_or(0.01, |p| to_f64(&(Rational::one() - p)));
         let bound = controller.bound_at(&from);
-        let satisfied = tally.satisfaction(alpha);
+        let safety = run.problem.safety;
+        let satisfied = tally.satisfaction(safety, alpha);
         Self {
             name: run.manifest.name.clone(),
             mode: promise.mode,
@@ -62,8 +68,10 @@ impl Report {
             seed,
             bound,
             promise_confidence: promise.confidence,
+            safety,
             satisfied,
-            reached: tally.reaching(alpha),
+            satisfied_at_every_step: tally.satisfaction(Safety::EveryStep, alpha),
+            reached: tally.reaching(safety, alpha),
             contradiction: satisfied.contradicts(bound),
             inputs_checked: tally.steps * controller.group_steps() as u64,
             counts: tally,
@@ -98,8 +106,20 @@ impl Report {
             None => "in reference mode: not a guarantee".to_owned(),
         };
         line("promised", format!("at least {} {promise}", lower_bound_text(self.bound)));
-        line("satisfied", format!("{} in the goal region", frequency(&self.satisfied)));
-        line("reached", format!("{} in goal cells", frequency(&self.reached)));
+        let when = match (self.group_steps, self.safety) {
+            (1, _) => "",
+            (_, Safety::EveryStep) => ", safe at every step",
+            (_, Safety::GroupedInstants) => ", safe at grouped instants",
+        };
+        line("satisfied", format!("{} in the goal region{when}", frequency(&self.satisfied)));
+        line("reached", format!("{} in goal cells{when}", frequency(&self.reached)));
+        if self.group_steps > 1 && self.safety == Safety::GroupedInstants {
+            let every = frequency(&self.satisfied_at_every_step);
+            line(
+                "every step",
+                format!("{every} in the goal region, safe at every step: this is not promised"),
+            );
+        }
         let counts = &self.counts;
         let ends = [
             ("reached", counts.reached),
@@ -119,9 +139,8 @@ impl Report {
             line(
                 "in between",
                 format!(
-                    "{} runs met the unsafe region between grouped instants, {} of them satisfied; this is not covered",
-                    thousands(counts.unsafe_between),
-                    thousands(counts.satisfied_unsafe_between)
+                    "{} runs met something unsafe between grouped instants",
+                    thousands(counts.unsafe_between)
                 ),
             );
         }

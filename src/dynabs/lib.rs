@@ -70,5 +70,7 @@ pub mod report;
 pub mod run;
 pub mod statistics;
 pub mod system;
+mod warning;
 
 pub use imdp;
+pub use warning::Warning;

@@ -14,9 +14,10 @@ pub use diagnostic::Diagnostic;
 pub use document::{Document, SetArgument};
 pub use fields::{
     DynamicsSpec, GaussianSpec, GridSpec, GroupSteps, Horizon, LqrSpec, Mode, ModelFile, NoiseSpec,
-    ProbabilitiesSpec, RegionSpec, SampleKind, SamplesSpec, SetSpec, StabilizerSpec, TargetsSpec, TaskSpec,
+    ProbabilitiesSpec, RegionSpec, SafetyCheck, SampleKind, SamplesSpec, SetSpec, StabilizerSpec,
+    TargetsSpec, TaskSpec, UnsafeSpec,
 };
 pub use noise::{NoiseSource, StepNoise};
-pub use problem::{Probabilities, Problem, TargetPoints};
+pub use problem::{Probabilities, Problem, Safety, TargetPoints};
 pub use schema::{json_schema, starter_model};
 pub use stabilizer::Stabilizer;

@@ -2,8 +2,10 @@
 
 use super::values::{symmetric, vector};
 use super::{Diagnostic, NoiseSpec, SampleKind, SamplesSpec};
+use crate::Warning;
 use crate::linear_algebra::Definiteness;
 use crate::noise::{CsvError, Gaussian, NoiseSamples, parse_csv};
+use crate::statistics::departures;
 use crate::system::LinearSystem;
 use imdp::numeric::to_f64;
 use std::path::Path;
@@ -16,6 +18,8 @@ const MAX_SAMPLES: u64 = 10_000_000;
 pub struct NoiseSource {
     /// Samples of the grouped noise.
     pub samples: NoiseSamples,
+    /// The noise so far after each step within a group, sample by sample; none if the samples are of grouped steps.
+    pub between: Vec<NoiseSamples>,
     /// What is known of the noise of one step.
     pub of_one_step: StepNoise,
     /// The seed, if they were drawn.
@@ -23,7 +27,7 @@ pub struct NoiseSource {
     /// The file they were read from, as named in the model file, and its content.
     pub file: Option<(String, String)>,
     /// What the user should know.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }
 
 /// What is known of the noise of one step.
@@ -90,9 +94,9 @@ fn noise_source(
             let unstable =
                 || Diagnostic::at(place, "a matrix without a factor", "a positive semidefinite matrix");
             let gaussian = Gaussian::new(&mean, &covariance).ok_or_else(unstable)?;
-            let samples = gaussian.sample(count as usize * d, seed).grouped(system, d);
+            let (samples, between) = grouped(&gaussian.sample(count as usize * d, seed), system, d);
             let of_one_step = StepNoise::Gaussian(gaussian);
-            Ok(NoiseSource { samples, of_one_step, seed: Some(seed), file: None, warnings: vec![] })
+            Ok(NoiseSource { samples, between, of_one_step, seed: Some(seed), file: None, warnings: vec![] })
         }
         _ => {
             let fields = [
@@ -140,23 +144,35 @@ fn read_samples(
         let expected = format!("at most {MAX_SAMPLES}");
         return Err(Diagnostic::at("", format!("{} samples", read.len()), expected).in_file(&name));
     }
-    let mut warnings = Vec::new();
-    let (samples, of_one_step) = match spec.of {
-        SampleKind::Grouped => (read, StepNoise::Unknown),
+    let mut warnings = independence(&name, &read);
+    let ((samples, between), of_one_step) = match spec.of {
+        SampleKind::Grouped => ((read, vec![]), StepNoise::Unknown),
         SampleKind::Step => {
-            let left_over = read.len() % d;
-            if left_over > 0 && read.len() > d {
-                warnings.push(format!(
-                    "{name}: the last {left_over} of {} samples do not fill a group of {d} and are not used",
-                    read.len()
-                ));
+            let (left_over, samples) = (read.len() % d, read.len());
+            if left_over > 0 && samples > d {
+                let file = name.clone();
+                warnings.push(Warning::LeftOverSamples { file, left_over, samples, group_steps: d });
             }
-            (read.grouped(system, d), StepNoise::Samples(read))
+            (grouped(&read, system, d), StepNoise::Samples(read))
         }
     };
     if samples.is_empty() {
         let found = format!("{} samples of one step", text.lines().count());
         return Err(Diagnostic::at("", found, format!("at least {d}, one group")).in_file(&name));
     }
-    Ok(NoiseSource { samples, of_one_step, seed: None, file: Some((spec.file.clone(), text)), warnings })
+    let file = Some((spec.file.clone(), text));
+    Ok(NoiseSource { samples, between, of_one_step, seed: None, file, warnings })
+}
+
+/// The noise of `d` steps together, and the noise so far after each step before the last.
+fn grouped(steps: &NoiseSamples, system: &LinearSystem, d: usize) -> (NoiseSamples, Vec<NoiseSamples>) {
+    let mut sums = steps.partial_sums(system, d);
+    let last = sums.pop().unwrap_or_else(|| steps.clone());
+    (last, sums)
+}
+
+/// What makes the samples of a file look dependent.
+fn independence(file: &str, samples: &NoiseSamples) -> Vec<Warning> {
+    let warning = |departure| Warning::NotIndependent { file: file.to_owned(), departure };
+    departures(samples.dimension(), samples.values()).into_iter().map(warning).collect()
 }

@@ -2,9 +2,11 @@
 
 use super::values::{input_set, matrix, vector};
 use super::{
-    Diagnostic, Document, DynamicsSpec, GroupSteps, Horizon, Mode, NoiseSource, ProbabilitiesSpec, Stabilizer,
+    Diagnostic, Document, DynamicsSpec, GroupSteps, Horizon, Mode, NoiseSource, ProbabilitiesSpec,
+    SafetyCheck, Stabilizer, StepNoise,
 };
 use super::{regions, stabilizer};
+use crate::Warning;
 use crate::geometry::Polytope;
 use crate::linear_algebra::ExactMatrix;
 use crate::partition::{CellId, CellLabels, Grid, Region};
@@ -38,6 +40,10 @@ pub struct Problem {
     pub goal: Vec<Region>,
     /// The unsafe region.
     pub unsafe_: Vec<Region>,
+    /// Whether everything outside the partition is unsafe too. At grouped instants it counts as failed anyway.
+    pub outside_is_unsafe: bool,
+    /// When the unsafe region is avoided.
+    pub safety: Safety,
     /// The points that actions steer to.
     pub targets: TargetPoints,
     /// The number of grouped steps, or `None` for an unbounded task.
@@ -53,7 +59,17 @@ pub struct Problem {
     /// The noise samples of the grouped system.
     pub noise: NoiseSource,
     /// What the user should know.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
+}
+
+/// When the unsafe region is avoided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Safety {
+    /// At every original step.
+    EveryStep,
+    /// Whenever a group of steps ends: in between it may be crossed.
+    GroupedInstants,
 }
 
 /// The points that actions steer to.
@@ -107,11 +123,6 @@ impl Problem {
         let task = regions::task_regions(&file.task, &grid)?;
         let mut warnings = task.warnings;
         let horizon = horizon(file.task.horizon, group_steps, &mut warnings)?;
-        if group_steps > 1 && !task.unsafe_.is_empty() {
-            warnings.push(format!(
-                "the unsafe region is checked every {group_steps} steps, at grouped instants only"
-            ));
-        }
         let threshold = file.task.threshold.map(threshold).transpose()?;
         let initial_cell = match &file.initial_state {
             None => None,
@@ -123,6 +134,7 @@ impl Problem {
         };
         let probabilities = probabilities(&file.probabilities)?;
         let noise = NoiseSource::new(&document.directory, &file.noise, &step_system, group_steps)?;
+        let safety = safety(file.task.check, group_steps, &noise, &probabilities)?;
         warnings.extend(stabilizer.iter().flat_map(|s| s.warnings.iter().cloned()));
         warnings.extend(noise.warnings.iter().cloned());
         Ok(Self {
@@ -137,6 +149,8 @@ impl Problem {
             labels: task.labels,
             goal: task.goal,
             unsafe_: task.unsafe_,
+            outside_is_unsafe: task.outside_is_unsafe,
+            safety,
             targets,
             horizon,
             threshold,
@@ -198,7 +212,7 @@ fn grouping(spec: &DynamicsSpec, system: &LinearSystem) -> Result<usize, Diagnos
     }
 }
 
-fn horizon(horizon: Horizon, d: usize, warnings: &mut Vec<String>) -> Result<Option<u64>, Diagnostic> {
+fn horizon(horizon: Horizon, d: usize, warnings: &mut Vec<Warning>) -> Result<Option<u64>, Diagnostic> {
     let Horizon::Steps(steps) = horizon else { return Ok(None) };
     let (grouped, rest) = (steps / d as u64, steps % d as u64);
     if grouped == 0 {
@@ -206,12 +220,35 @@ fn horizon(horizon: Horizon, d: usize, warnings: &mut Vec<String>) -> Result<Opt
         return Err(Diagnostic::at("/task/horizon", steps.to_string(), expected));
     }
     if rest > 0 {
-        let used = grouped * d as u64;
-        warnings.push(format!(
-            "/task/horizon: {steps} steps are {grouped} groups of {d}; the guarantee is for the first {used}"
-        ));
+        warnings.push(Warning::CutHorizon { steps, used: grouped * d as u64, group_steps: d });
     }
     Ok(Some(grouped))
+}
+
+fn safety(
+    check: Option<SafetyCheck>,
+    group_steps: usize,
+    noise: &NoiseSource,
+    probabilities: &Probabilities,
+) -> Result<Safety, Diagnostic> {
+    if group_steps == 1 {
+        return Ok(Safety::EveryStep);
+    }
+    let is_reference = matches!(probabilities, Probabilities::Reference { .. });
+    let is_stepwise = !matches!(noise.of_one_step, StepNoise::Unknown);
+    let impossible = |found: &str, expected: &str| Err(Diagnostic::at("/task/check", found, expected));
+    match check {
+        Some(SafetyCheck::EveryStep) if is_reference => impossible(
+            "\"every_step\" in mode \"reference\"",
+            "\"grouped\" there: the published tool looks no closer",
+        ),
+        Some(SafetyCheck::EveryStep) if !is_stepwise => impossible(
+            "\"every_step\" with samples of \"grouped\" steps, which say nothing about those in between",
+            "samples of one \"step\", or \"grouped\"",
+        ),
+        None | Some(SafetyCheck::EveryStep) if is_stepwise && !is_reference => Ok(Safety::EveryStep),
+        _ => Ok(Safety::GroupedInstants),
+    }
 }
 
 fn threshold(threshold: f64) -> Result<Probability, Diagnostic> {

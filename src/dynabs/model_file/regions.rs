@@ -1,8 +1,9 @@
 //! The partition, its targets and the regions of the task.
 
 use super::values::{count, vector};
-use super::{Diagnostic, GridSpec, RegionSpec, TargetsSpec, TaskSpec};
-use crate::partition::{CellKind, CellLabels, Grid, GridError, NearMiss, Region, first_overlap, near_misses};
+use super::{Diagnostic, GridSpec, RegionSpec, TargetsSpec, TaskSpec, UnsafeSpec};
+use crate::Warning;
+use crate::partition::{CellKind, CellLabels, Grid, GridError, Region, first_overlap, near_misses};
 use imdp::numeric::{Rational, from_decimal, shortest_decimal, to_f64};
 
 use super::problem::TargetPoints;
@@ -52,17 +53,29 @@ pub(super) fn targets(place: &str, spec: &TargetsSpec, n: usize) -> Result<Targe
 pub(super) struct TaskRegions {
     pub(super) goal: Vec<Region>,
     pub(super) unsafe_: Vec<Region>,
+    pub(super) outside_is_unsafe: bool,
     pub(super) labels: CellLabels,
-    pub(super) warnings: Vec<String>,
+    pub(super) warnings: Vec<Warning>,
 }
 
 /// Reads the regions of a task and labels the cells.
 pub(super) fn task_regions(spec: &TaskSpec, grid: &Grid) -> Result<TaskRegions, Diagnostic> {
     let n = grid.dimension();
-    let goal = regions("/task/goal", &spec.goal, n)?;
-    let unsafe_ = regions("/task/unsafe", &spec.unsafe_, n)?;
+    let goal = (spec.goal.iter().enumerate())
+        .map(|(i, spec)| region(&format!("/task/goal/{i}"), spec, n))
+        .collect::<Result<Vec<_>, _>>()?;
+    let (mut unsafe_, mut places, mut outside_is_unsafe) = (vec![], vec![], false);
+    for (i, spec) in spec.unsafe_.iter().enumerate() {
+        match spec {
+            UnsafeSpec::Outside => outside_is_unsafe = true,
+            UnsafeSpec::Region(spec) => {
+                unsafe_.push(region(&format!("/task/unsafe/{i}"), spec, n)?);
+                places.push(i);
+            }
+        }
+    }
     if let Some((i, j)) = first_overlap(&goal, &unsafe_) {
-        let found = format!("box {i} overlaps /task/unsafe/{j}");
+        let found = format!("box {i} overlaps /task/unsafe/{}", places[j]);
         return Err(Diagnostic::at(format!("/task/goal/{i}"), found, "goal boxes that meet no unsafe box")
             .remedy("Cut the overlap out of one of the two; boxes may touch."));
     }
@@ -77,30 +90,15 @@ pub(super) fn task_regions(spec: &TaskSpec, grid: &Grid) -> Result<TaskRegions, 
     }
     let mut warnings = Vec::new();
     for (name, list) in [("goal", &goal), ("unsafe", &unsafe_)] {
-        warnings.extend(near_misses(grid, list).iter().map(|miss| near_miss_warning(name, miss)));
+        let warning = |miss| Warning::NearMiss { list: name, miss };
+        warnings.extend(near_misses(grid, list).into_iter().map(warning));
     }
-    Ok(TaskRegions { goal, unsafe_, labels, warnings })
+    Ok(TaskRegions { goal, unsafe_, outside_is_unsafe, labels, warnings })
 }
 
 fn widths(grid: &Grid) -> String {
     let widths: Vec<_> = grid.axes().iter().map(|axis| shortest_decimal(to_f64(axis.width()))).collect();
     widths.join(" × ")
-}
-
-fn near_miss_warning(name: &str, miss: &NearMiss) -> String {
-    format!(
-        "/task/{name}/{}: the face at {} in dimension {} is {:.1e} cell widths from the grid face {} but not on \
-         it; if they are meant to coincide, write the same number",
-        miss.region,
-        shortest_decimal(miss.face),
-        miss.dimension + 1,
-        miss.distance,
-        shortest_decimal(to_f64(&miss.grid_face)),
-    )
-}
-
-fn regions(place: &str, specs: &[RegionSpec], n: usize) -> Result<Vec<Region>, Diagnostic> {
-    specs.iter().enumerate().map(|(i, spec)| region(&format!("{place}/{i}"), spec, n)).collect()
 }
 
 fn region(place: &str, spec: &RegionSpec, n: usize) -> Result<Region, Diagnostic> {

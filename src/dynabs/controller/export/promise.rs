@@ -1,7 +1,7 @@
 //! What is promised about a controller, in words and numbers.
 
 use crate::controller::Controller;
-use crate::model_file::{Probabilities, Problem};
+use crate::model_file::{Probabilities, Problem, Safety};
 use crate::partition::CellKind;
 use imdp::numeric::{Rational, round_decimal_down, shortest_decimal, to_f64};
 use num_traits::One;
@@ -22,8 +22,10 @@ pub struct Promise {
     pub bound: f64,
     /// The number of original steps within which the goal is reached; none for unbounded tasks.
     pub horizon: Option<u64>,
-    /// Every how many steps safety is checked.
+    /// Every how many steps inputs are decided.
     pub group_steps: u64,
+    /// When the unsafe region is avoided.
+    pub safety: Safety,
 }
 
 impl Promise {
@@ -46,6 +48,7 @@ impl Promise {
             },
             horizon: problem.horizon.map(|steps| steps * group_steps),
             group_steps,
+            safety: problem.safety,
         }
     }
 
@@ -74,10 +77,16 @@ impl Promise {
             ),
         }];
         if self.group_steps > 1 {
-            sentences.push(format!(
-                "Safety is checked every {} steps only: the unsafe region may be crossed in between.",
-                self.group_steps
-            ));
+            sentences.push(match self.safety {
+                Safety::EveryStep => format!(
+                    "Safety is meant at every step, although inputs are decided every {} steps only.",
+                    self.group_steps
+                ),
+                Safety::GroupedInstants => format!(
+                    "Safety is checked every {} steps only: the unsafe region may be crossed in between.",
+                    self.group_steps
+                ),
+            });
         }
         sentences
     }
