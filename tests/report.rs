@@ -195,9 +195,9 @@ fn every_shipped_model_in_both_modes() {
             assert_eq!(promise.contains("confidence <strong>0.99</strong>"), !reference, "{model}");
             assert_eq!(promise.contains("nothing is guaranteed"), reference, "{model}");
             assert_eq!(page.contains("promised probability"), !reference, "{model}");
-            let bound = dynabs::controller::export::lower_bound_text(answer.lower);
+            let bound = dynabs::guarantee::lower_bound_text(answer.lower);
             assert!(promise.contains(&bound), "{model}: {bound}");
-            for allocation in &run.manifest.probabilities.budget {
+            for allocation in run.manifest.guarantee.samples().iter().flat_map(|samples| &samples.budget) {
                 assert!(page.contains(&format!("<th scope=\"row\">{}</th>", allocation.family)));
             }
             assert!(!page.contains("<h2>Cross-check</h2>"));

@@ -184,6 +184,6 @@ fn discarded_samples_make_rows_shorter_and_leave_more_unseen() {
     let all = abstraction("double_integrator", &[]);
     let fewer = abstraction("double_integrator", &["/probabilities/discard=8".into()]);
     assert!(fewer.model.rows().num_entries() < all.model.rows().num_entries());
-    let unseen = |abstraction: &Abstraction| abstraction.guarantee.as_ref().unwrap().unseen_mass;
+    let unseen = |abstraction: &Abstraction| abstraction.guarantee.samples().unwrap().unseen_mass;
     assert!(unseen(&fewer) > unseen(&all));
 }

@@ -2,9 +2,8 @@
 
 use super::simulation_noise::ChosenNoise;
 use super::{CliError, thousands};
-use dynabs::controller::export::{Promise, lower_bound_text};
 use dynabs::controller::{Controller, Frequency, Tally};
-use dynabs::model_file::Safety;
+use dynabs::guarantee::{Safety, lower_bound_text};
 use dynabs::run::Run;
 use imdp::numeric::{Rational, from_decimal, shortest_decimal, to_f64};
 use num_traits::One;
@@ -54,7 +53,7 @@ pub(super) struct Simulated {
 impl Report {
     pub(super) fn new(run: &Run, controller: &Controller, noise: ChosenNoise, simulated: Simulated) -> Self {
         let Simulated { from, seed, confidence, tally, seconds } = simulated;
-        let promise = Promise::new(&run.problem, controller);
+        let guarantee = controller.guarantee();
         // Of the decimal that was written: 0.01 for 0.99.
         let alpha = from_decimal(confidence).map_or(0.01, |p| to_f64(&(Rational::one() - p)));
         let bound = controller.bound_at(&from);
@@ -62,12 +61,12 @@ impl Report {
         let satisfied = tally.satisfaction(safety, alpha);
         Self {
             name: run.manifest.name.clone(),
-            mode: promise.mode,
+            mode: guarantee.mode(),
             from,
             noise: noise.name,
             seed,
             bound,
-            promise_confidence: promise.confidence,
+            promise_confidence: guarantee.confidence(),
             safety,
             satisfied,
             satisfied_at_every_step: tally.satisfaction(Safety::EveryStep, alpha),
@@ -75,7 +74,7 @@ impl Report {
             contradiction: satisfied.contradicts(bound),
             inputs_checked: tally.steps * controller.group_steps() as u64,
             counts: tally,
-            group_steps: promise.group_steps,
+            group_steps: guarantee.event.group_steps,
             seconds,
             notes: noise.notes,
         }

@@ -62,6 +62,8 @@
 pub mod abstraction;
 pub mod controller;
 pub mod geometry;
+pub mod guarantee;
+pub mod landing;
 pub mod linear_algebra;
 pub mod model_file;
 pub mod noise;

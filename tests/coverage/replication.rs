@@ -62,7 +62,7 @@ pub fn replicate(
     let real = satisfaction(&problem, &abstraction, policy, &truths);
     let overstated = (real.iter().zip(&abstraction.state_of_cell))
         .any(|(real, &state)| answer.values.lower[state as usize] > real + ROUNDING);
-    let unseen = abstraction.guarantee.as_ref().unwrap().unseen_mass;
+    let unseen = abstraction.guarantee.samples().unwrap().unseen_mass;
     let [cells, goal, failed] = violations(&problem, &abstraction, &truths, 0.0);
     let [_, _, without_unseen] = violations(&problem, &abstraction, &truths, unseen);
     let count = u64::from;

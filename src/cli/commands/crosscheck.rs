@@ -113,8 +113,9 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     say(arguments, &missing.iter().map(ToString::to_string).collect::<Vec<_>>(), "missing: ");
 
     bars.catch_interrupts()?;
-    let memory_mib =
-        arguments.memory.unwrap_or_else(|| available_memory().map_or(4096, |bytes| (bytes >> 20) / 4 * 3));
+    let memory_mib = arguments
+        .memory
+        .unwrap_or_else(|| available_memory().map_or(4096, |(bytes, _)| (bytes >> 20) / 4 * 3));
     let limits = RunLimits {
         timeout: Duration::from_secs_f64(arguments.timeout),
         memory_mib,

@@ -53,8 +53,8 @@ impl<'a> Base<'a> {
         let placements = Placements::new(&problem.grid, targets, tolerance);
         let hazards = Hazards::in_between(problem);
         let intervals = match &problem.probabilities {
-            Probabilities::Pac { beta, discard } => {
-                let statement = (beta, *discard as usize);
+            Probabilities::Pac { beta, sweep, discard } => {
+                let statement = (beta, *sweep, *discard as usize);
                 let prepared = Prepared::new(problem, statement, targets, &placements, hazards.as_ref())?;
                 Intervals::Pac(Box::new(prepared))
             }

@@ -9,12 +9,13 @@ use super::steering::Steering;
 use super::targets::Targets;
 use super::{AbstractionError, reference};
 use crate::Warning;
+use crate::guarantee::{Event, Evidence, Guarantee};
 use crate::model_file::{Probabilities, Problem};
 use crate::partition::{CellId, CellKind, Grid};
-use crate::statistics::Allocation;
 use crate::system::FeedbackLaw;
 use imdp::model::{
     ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, ModelKind, Parts, RowRange, Rows, StateId,
+    StateSet,
 };
 use imdp::progress::Progress;
 use imdp::property::{PathFormula, Property, Resolution, StateFormula, Threshold, ThresholdComparison};
@@ -34,23 +35,12 @@ pub struct Abstraction {
     pub targets: Targets,
     /// The law that steers to them.
     pub law: FeedbackLaw,
-    /// What the intervals promise; `None` in `reference` mode, which promises nothing.
-    pub guarantee: Option<Guarantee>,
+    /// What the intervals promise, which is nothing in `reference` mode.
+    pub guarantee: Guarantee,
     /// How long each phase took.
     pub phases: Vec<(&'static str, Duration)>,
     /// What the user should know.
     pub warnings: Vec<Warning>,
-}
-
-/// What the intervals of a model promise, and what it rests on.
-#[derive(Clone, Debug)]
-pub struct Guarantee {
-    /// The probability that some claim fails, at most.
-    pub beta: f64,
-    /// What the budget was spent on.
-    pub budget: Vec<Allocation>,
-    /// The bound on the mass outside the window of cells that a row lists.
-    pub unseen_mass: f64,
 }
 
 /// How long to look for values by which windows are chosen: a better choice is not worth more.
@@ -89,7 +79,8 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
     let blocked = states.select(|state| is_blocked(problem, &states, &choices, state));
     clock.lap("choices");
 
-    let (reached, failed) = outcome_states(problem, &states, matches!(intervals, Intervals::Pac(_)));
+    let is_pac = matches!(intervals, Intervals::Pac(_));
+    let (reached, failed) = outcome_states(problem, &states, &blocked, is_pac);
     let property = reach_avoid(problem);
     let model_of = |rows: Rows| -> Result<IntervalMdp, ImdpError> {
         IntervalMdp::new(Parts {
@@ -103,11 +94,11 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
         })
     };
     let contradiction = intervals.contradiction();
-    let (rows, guarantee) = match intervals {
-        Intervals::Reference(beta) => {
-            let rows = reference::build(problem, beta, targets, placements, &states, progress)?;
+    let (rows, evidence) = match intervals {
+        Intervals::Reference(beta_per_interval) => {
+            let rows = reference::build(problem, beta_per_interval, targets, placements, &states, progress)?;
             clock.lap("rows");
-            (rows, None)
+            (rows, Evidence::Published { beta_per_interval })
         }
         Intervals::Pac(prepared) => {
             let outcomes = Outcomes::new(&problem.labels, |cell| enabling.is_idle(cell));
@@ -116,7 +107,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
             clock.lap("rows");
             let rows = pac.better_rows(&scout(&model_of(rows)?, &property)?, progress);
             clock.lap("choice of windows");
-            (rows, Some(pac.guarantee()))
+            (rows, Evidence::Samples(pac.evidence()))
         }
     };
     let mut warnings = warnings(problem, blocked.count_ones(..));
@@ -129,7 +120,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
         state_of_cell: state_of_cell(grid, &states),
         targets: steering.targets,
         law: steering.law,
-        guarantee,
+        guarantee: Guarantee { event: Event::of(problem), evidence },
         phases: clock.phases,
         warnings,
     })
@@ -149,18 +140,19 @@ impl Abstraction {
     /// whatever a policy chooses is safe to apply.
     ///
     /// # Errors
-    /// [`AbstractionError::Foreign`] if the model is another problem's.
+    /// [`AbstractionError::Foreign`] if the model or what is promised of it is another problem's.
     pub fn reopen(
         problem: &Problem,
         model: IntervalMdp,
-        guarantee: Option<Guarantee>,
+        guarantee: Guarantee,
         progress: &dyn Progress,
     ) -> Result<Self, AbstractionError> {
         let mut clock = Clock { start: Instant::now(), phases: vec![] };
         let steering = Steering::new(problem)?;
         let enabled = Base::new(problem, &steering, progress)?.enabling.actions;
         let states = state_space(problem);
-        let same = model.num_states() == states.len()
+        let same = guarantee.event == Event::of(problem)
+            && model.num_states() == states.len()
             && model.rows().len() == steering.targets.len()
             && *model.choices() == choices(problem, &states, &enabled);
         if !same {
@@ -222,11 +214,13 @@ fn is_blocked(problem: &Problem, states: &StateSpace, choices: &Choices, state: 
         && states.cell(state).is_some_and(|cell| problem.labels.kind(cell) == CellKind::Ordinary)
 }
 
+/// The states that are labelled `reached` and `failed`.
 fn outcome_states(
     problem: &Problem,
     states: &StateSpace,
+    blocked: &StateSet,
     is_pac: bool,
-) -> (imdp::model::StateSet, imdp::model::StateSet) {
+) -> (StateSet, StateSet) {
     let of_kind = |kind, heads: &[StateId]| {
         states.select(|state| match states.cell(state) {
             None => heads.contains(&state),
@@ -234,7 +228,10 @@ fn outcome_states(
         })
     };
     if is_pac {
-        (of_kind(CellKind::Goal, &[REACHED]), of_kind(CellKind::Unsafe, &[FAILED]))
+        // A run that starts in a cell in which nothing is enabled is over.
+        let mut failed = of_kind(CellKind::Unsafe, &[FAILED]);
+        failed.union_with(blocked);
+        (of_kind(CellKind::Goal, &[REACHED]), failed)
     } else {
         (of_kind(CellKind::Goal, &[2]), of_kind(CellKind::Unsafe, &[0, 1]))
     }

@@ -1,6 +1,7 @@
 //! What must be avoided at every step.
 
-use crate::model_file::{Probabilities, Problem, Safety};
+use crate::guarantee::Safety;
+use crate::model_file::{Probabilities, Problem};
 use crate::partition::Region;
 use imdp::numeric::{Rational, to_f64_down, to_f64_up};
 

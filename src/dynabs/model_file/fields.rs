@@ -272,6 +272,11 @@ pub struct ProbabilitiesSpec {
     /// pac: 1 − confidence, where that is easier to write.
     #[serde(default)]
     pub beta: Option<f64>,
+    /// pac: how many settings are compiled with these samples, 1 if not given. Whoever compiles several and then takes the one
+    /// with the best result writes their number into all of them: each gets this part of beta.
+    #[serde(default)]
+    #[schemars(range(min = 1))]
+    pub sweep: Option<u64>,
     /// pac: rows do not list the cells of this many farthest samples, 0 if not given: with heavy-tailed noise
     /// they stay short. Choose it before looking at the samples.
     #[serde(default)]

@@ -18,6 +18,6 @@ pub use fields::{
     TargetsSpec, TaskSpec, UnsafeSpec,
 };
 pub use noise::{NoiseSource, StepNoise};
-pub use problem::{Probabilities, Problem, Safety, TargetPoints};
+pub use problem::{Probabilities, Problem, TargetPoints};
 pub use schema::{json_schema, starter_model};
 pub use stabilizer::Stabilizer;

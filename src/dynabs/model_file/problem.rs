@@ -8,6 +8,7 @@ use super::{
 use super::{regions, stabilizer};
 use crate::Warning;
 use crate::geometry::Polytope;
+use crate::guarantee::Safety;
 use crate::linear_algebra::ExactMatrix;
 use crate::partition::{CellId, CellLabels, Grid, Region};
 use crate::system::{LinearSystem, group, smallest_group};
@@ -62,16 +63,6 @@ pub struct Problem {
     pub warnings: Vec<Warning>,
 }
 
-/// When the unsafe region is avoided.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Safety {
-    /// At every original step.
-    EveryStep,
-    /// Whenever a group of steps ends: in between it may be crossed.
-    GroupedInstants,
-}
-
 /// The points that actions steer to.
 #[derive(Clone, Debug)]
 pub enum TargetPoints {
@@ -90,6 +81,8 @@ pub enum Probabilities {
     Pac {
         /// The failure probability, exactly.
         beta: Rational,
+        /// How many settings are compiled with these samples: each may spend `beta / sweep`.
+        sweep: u64,
         /// How many of the farthest samples are left out of the cells that rows list.
         discard: u64,
     },
@@ -298,17 +291,23 @@ fn probabilities(spec: &ProbabilitiesSpec) -> Result<Probabilities, Diagnostic> 
         }
         ProbabilitiesSpec { mode: Mode::Reference, beta: Some(_), .. } => foreign("beta", "reference"),
         ProbabilitiesSpec { mode: Mode::Reference, discard: Some(_), .. } => foreign("discard", "reference"),
+        ProbabilitiesSpec { mode: Mode::Reference, sweep: Some(_), .. } => foreign("sweep", "reference"),
+        ProbabilitiesSpec { sweep: Some(0), .. } => Err(Diagnostic::at(
+            place("sweep"),
+            "0",
+            "the number of settings that are compiled with these samples, at least 1",
+        )),
         ProbabilitiesSpec { mode: Mode::Pac, confidence: Some(_), beta: Some(_), .. } => Err(Diagnostic::at(
             "/probabilities",
             "both confidence and beta",
             "one of them: beta = 1 − confidence",
         )),
-        ProbabilitiesSpec { mode: Mode::Pac, beta: Some(beta), discard, .. } => {
-            in_unit("beta", *beta).map(|beta| Probabilities::Pac { beta, discard: discard.unwrap_or(0) })
-        }
-        ProbabilitiesSpec { mode: Mode::Pac, confidence, discard, .. } => {
-            let confidence = in_unit("confidence", confidence.unwrap_or(0.99))?;
-            Ok(Probabilities::Pac { beta: Rational::one() - confidence, discard: discard.unwrap_or(0) })
+        ProbabilitiesSpec { mode: Mode::Pac, confidence, beta, sweep, discard, .. } => {
+            let beta = match beta {
+                Some(beta) => in_unit("beta", *beta)?,
+                None => Rational::one() - in_unit("confidence", confidence.unwrap_or(0.99))?,
+            };
+            Ok(Probabilities::Pac { beta, sweep: sweep.unwrap_or(1), discard: discard.unwrap_or(0) })
         }
         ProbabilitiesSpec { mode: Mode::Reference, beta_per_interval, .. } => {
             let beta_per_interval = beta_per_interval.unwrap_or(0.01);

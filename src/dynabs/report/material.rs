@@ -128,7 +128,7 @@ impl<'a> Material<'a> {
 
     /// What values are called: in reference mode nothing is promised.
     pub(super) fn value_name(&self) -> &'static str {
-        if self.run.abstraction.guarantee.is_some() {
+        if self.run.abstraction.guarantee.confidence().is_some() {
             "promised probability"
         } else {
             "value (nothing is promised)"

@@ -4,7 +4,7 @@ use super::markup::{escape, table};
 use super::material::Material;
 use super::numbers::{short, tuple};
 use super::results::CrossChecks;
-use crate::model_file::Safety;
+use crate::guarantee::{Evidence, Safety};
 use crate::run::Run;
 
 /// A number with thin spaces between groups of three digits.
@@ -70,7 +70,7 @@ pub(super) fn simulation(material: &Material<'_>) -> String {
         frequency.frequency,
         frequency.lower,
         frequency.upper,
-        crate::controller::export::lower_bound_text(bound),
+        crate::guarantee::lower_bound_text(bound),
         table(&caption, &["runs that", "number", "share"], &rows)
     )
 }
@@ -106,25 +106,32 @@ pub(super) fn sizes(material: &Material<'_>) -> String {
 
 /// What the failure probability was spent on.
 pub(super) fn budget(run: &Run) -> String {
-    let probabilities = &run.manifest.probabilities;
-    let Some(beta) = probabilities.beta else {
-        let level = probabilities.beta_per_interval.map_or(String::new(), short);
-        return format!(
-            "<p>Reference mode has no budget: every interval has the level {level} for itself.</p>\n"
-        );
+    let samples = match &run.manifest.guarantee.evidence {
+        Evidence::Samples(samples) => samples,
+        Evidence::Published { beta_per_interval } => {
+            return format!(
+                "<p>Reference mode has no budget: every interval has the level {} for itself.</p>\n",
+                short(*beta_per_interval)
+            );
+        }
     };
     let line = |a: &crate::statistics::Allocation| {
         let events = if a.events < 1e15 { count(a.events as u64) } else { short(a.events) };
         row(&[&escape(&a.family), &events, &short(a.beta)])
     };
-    let rows: Vec<_> = probabilities.budget.iter().map(line).collect();
-    let unseen = probabilities.unseen_mass.map_or(String::new(), |mass| {
-        format!(
-            "<p>At most {} of the noise's probability lies outside the window of cells that a row lists.</p>\n",
-            short(mass)
-        )
-    });
-    let caption = format!("How β = {} was spent; by the union bound all events hold together", short(beta));
+    let rows: Vec<_> = samples.budget.iter().map(line).collect();
+    let unseen = format!(
+        "<p>At most {} of the noise's probability lies outside the window of cells that a row lists.</p>\n",
+        short(samples.unseen_mass)
+    );
+    let part = match samples.sweep {
+        1 => String::new(),
+        settings => format!(", of which each of {settings} settings has its part,"),
+    };
+    let caption = format!(
+        "How β = {}{part} was spent; by the union bound all events hold together",
+        short(samples.beta)
+    );
     table(&caption, &["family of events", "events", "β"], &rows) + &unseen
 }
 

@@ -8,7 +8,7 @@ mod row_states;
 mod staging;
 mod write;
 
-pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile, ProbabilityReport};
+pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile};
 pub use open::{OpenError, Run};
 pub use pruning::PruningReport;
 pub use record::{RecordError, open_record};

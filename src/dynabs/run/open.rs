@@ -3,7 +3,7 @@
 use super::manifest::Manifest;
 use super::staging::MANIFEST;
 use super::write::{NATIVE_MODEL, PROBLEM};
-use crate::abstraction::{Abstraction, AbstractionError, Guarantee};
+use crate::abstraction::{Abstraction, AbstractionError};
 use crate::model_file::{Diagnostic, Document, Problem};
 use imdp::formats::native::{self, NativeError};
 use imdp::formats::sha256_hex;
@@ -133,7 +133,7 @@ impl Run {
         let model = native::read_from(bytes.as_slice(), bytes.len() as u64).map_err(|error| {
             OpenError::Model { path: directory.join(NATIVE_MODEL).display().to_string(), error }
         })?;
-        let guarantee = guarantee(&manifest);
+        let guarantee = manifest.guarantee.clone();
         let abstraction = Abstraction::reopen(&problem, model, guarantee, progress)
             .map_err(|error| OpenError::Abstraction { path: shown, error })?;
         Ok(Self { directory: directory.to_path_buf(), manifest, document, problem, abstraction })
@@ -151,15 +151,6 @@ impl Run {
     pub fn solve(&self, options: &SolverOptions<'_>) -> Result<Answer, AnswerError> {
         Answer::new(&self.abstraction.model, self.property(), options)
     }
-}
-
-fn guarantee(manifest: &Manifest) -> Option<Guarantee> {
-    let probabilities = &manifest.probabilities;
-    Some(Guarantee {
-        beta: probabilities.beta?,
-        budget: probabilities.budget.clone(),
-        unseen_mass: probabilities.unseen_mass?,
-    })
 }
 
 fn read_manifest(directory: &Path) -> Result<Manifest, OpenError> {

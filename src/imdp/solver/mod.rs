@@ -37,8 +37,8 @@ mod unbounded;
 
 pub use answer::{Answer, AnswerError};
 pub use expectation::worst_expectations;
-pub use options::{SolverOptions, Status};
-pub use policy::Policy;
+pub use options::{Control, SolverOptions, Status};
+pub use policy::{NO_CHOICE, Policy};
 pub use prune::{PruneError, Pruned};
 pub use query::{Query, SolveError};
 pub use solution::{Solution, ValueBounds};

@@ -31,6 +31,35 @@
 //! and the number of events stays the same. Windows likewise: a sample is as far as the farthest cell that it may
 //! lie in, so with `C` the cells of a window all but `j` samples are in `C⁻ − d_a` for certain.
 //!
+//! # Every step of a group
+//!
+//! Where `d > 1` steps are one and something unsafe is to be avoided at each of them, more is claimed. Let `ξ_i` be the noise
+//! so far after step `i`, `ξ_d = η`, and `ξ = (ξ_1 … ξ_d)`; samples are of `ξ`.
+//!
+//! **Claim.** With probability at least `1 − β` every row, in every cell in which its action is enabled, contains the
+//! distribution of the cell of `d_a + η` after moving to `failed`, beyond the above, the mass of all `ξ` with which some state
+//! of the cell meets something unsafe at a step before the last.
+//!
+//! **Proof.** From a state `x` of the cell the state after step `i < d` is `m_i + ξ_i`, with `m_i` in a box that is known
+//! ([`PartialImage`](crate::system::PartialImage)). Windows are for `ξ`, and the action is enabled only if these boxes, widened
+//! by the largest window, keep clear of everything unsafe: so they do with every smaller one. Take a window, `W`, made from
+//! the samples, and let `inside` mean a noise that is nearer than its edge, the `(j+1)`-th farthest of `m` samples; equal
+//! distances are ordered by independent uniform numbers, which the noise at run time gets as well. Then
+//! - nothing unsafe is met between the steps if the noise is inside;
+//! - `P(outside) ≤ ε` by the family *windows*, as above;
+//! - given the edge, the `m − j − 1` samples that are nearer are independent, and their law is that of the noise conditioned on
+//!   being inside (of independent numbers, those below an order statistic are independent given it, with the law cut off
+//!   there). So, whatever the edge is, each Clopper–Pearson bound with their number holds for the conditional probability except
+//!   with probability its level, and hence also without the condition: `P(η ∈ C | inside) ≥ l`, one event per window.
+//!
+//! Let `p` be what remains of a listed set `C` after moving: `P(η ∈ C, nothing unsafe in between)`. It is at least
+//! `P(inside) P(η ∈ C | inside) ≥ (1 − ε) l`, and at most `P(η ∈ C) ≤ u`, the bound from above, of all samples. What is
+//! moved to `failed` beyond what is lost at the end is outside of `W`, so `ε`, or `ε` and the bound of *lost*, covers it as
+//! above. *Lost* are the cells in which the law has no action at all: those where windows leave none are known only from
+//! the samples, and are listed like any other. ∎
+//!
+//! A lower bound of `P(η ∈ C)` itself would not do: all of that mass could be noise that meets an obstacle on its way.
+//!
 //! Moving mass to `failed` can only lower the probability of a formula that is false from `failed` on, so
 //! robust lower bounds of such formulas (`Pmaxmin`, `Pminmin`) carry over to the system; dually, upper
 //! bounds with maximising nature of `F "failed"`. Nothing else is claimed. Samples whose cell is not certain
@@ -41,13 +70,14 @@ mod ground;
 mod levels;
 mod prepared;
 
+use super::AbstractionError;
 use super::landing::{RegionCounts, Spread};
 use super::landings::{Landings, Placements, for_each_cell, is_inside};
 use super::outcomes::{Outcome, Outcomes};
 use super::states::{FAILED, REACHED, StateSpace};
 use super::targets::Targets;
 use super::windows::WINDOWS;
-use super::{AbstractionError, Guarantee};
+use crate::guarantee::SampleEvidence;
 use crate::model_file::Problem;
 use bounds::{BoundTable, DIGITS, Interval};
 use ground::{Ground, cell_events, intervals};
@@ -154,12 +184,15 @@ impl<'a> PacRows<'a> {
         })
     }
 
-    /// What the rows promise.
-    pub(super) fn guarantee(&self) -> Guarantee {
-        Guarantee {
-            beta: self.prepared.budget.total(),
-            budget: self.prepared.budget.allocations().to_vec(),
-            unseen_mass: self.prepared.unseen.first().copied().unwrap_or(1.0),
+    /// What the rows rest on.
+    pub(super) fn evidence(&self) -> SampleEvidence {
+        let prepared = &self.prepared;
+        SampleEvidence {
+            number: self.problem.noise.samples.len() as u64,
+            beta: prepared.beta,
+            sweep: prepared.sweep,
+            budget: prepared.budget.allocations().to_vec(),
+            unseen_mass: prepared.unseen.first().copied().unwrap_or(1.0),
         }
     }
 

@@ -9,13 +9,16 @@ use super::bounds::{DIGITS, SampleSize};
 use super::levels::{Levels, LowerBounds, distances_in_cells};
 use crate::model_file::Problem;
 use crate::statistics::{ConfidenceBudget, upper_bound};
-use imdp::numeric::{Rational, one_minus_down, round_decimal_up};
+use imdp::numeric::{Rational, one_minus_down, round_decimal_up, to_f64};
 
 /// The most that may be unseen: beyond it no policy could be shown to succeed more often than not.
 const MAX_UNSEEN: f64 = 0.5;
 
 /// Levels and windows: all that is known before it is known where targets can be steered to.
 pub(in super::super) struct Prepared {
+    /// What all settings of a sweep may fail with together, and how many there are.
+    pub(super) beta: f64,
+    pub(super) sweep: u64,
     pub(super) budget: ConfidenceBudget,
     pub(super) levels: Levels,
     /// Per action, in cells.
@@ -26,12 +29,13 @@ pub(in super::super) struct Prepared {
 }
 
 impl Prepared {
-    /// Spends `β` and lays windows; the `discard` farthest samples are left out of all of them.
+    /// Spends the part of `β` that one of `sweep` settings has, and lays windows; the `discard` farthest samples are left
+    /// out of all of them.
     ///
     /// With `hazards` to be avoided at every step, windows are for the noise of all steps.
     pub(in super::super) fn new(
         problem: &Problem,
-        (beta, discard): (&Rational, usize),
+        (beta, sweep, discard): (&Rational, u64, usize),
         targets: &Targets,
         placements: &Placements<'_>,
         hazards: Option<&Hazards>,
@@ -43,7 +47,7 @@ impl Prepared {
         };
         let goal_distances = distances_in_cells(targets, &problem.goal, grid);
         let origins = if placements.shared().is_some() { 1 } else { targets.len() };
-        let mut budget = ConfidenceBudget::new(beta.clone());
+        let mut budget = ConfidenceBudget::new(beta / Rational::from_integer(sweep.into()));
         let offsets = placements.offset_ranges(grid);
         let levels = Levels::new(&mut budget, lower, &offsets, origins, &goal_distances)?;
 
@@ -57,7 +61,7 @@ impl Prepared {
             let needed = enough_samples(discard, levels.windows[0]);
             return Err(AbstractionError::TooFewSamples { samples, needed, unseen: of_largest });
         }
-        Ok(Self { budget, levels, goal_distances, windows, unseen })
+        Ok(Self { beta: to_f64(beta), sweep, budget, levels, goal_distances, windows, unseen })
     }
 
     /// The windows.

@@ -1,6 +1,5 @@
 //! The controller as one self-contained C99 file.
 
-use super::promise::Promise;
 use super::template::render;
 use crate::controller::Controller;
 use crate::model_file::Problem;
@@ -56,7 +55,7 @@ pub fn c_source(controller: &Controller, problem: &Problem, file: &str) -> Resul
     let values = [
         ("name", comment(&problem.name)),
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
-        ("promise", promise(&Promise::new(problem, controller))),
+        ("promise", promise(&controller.promise())),
         ("file", comment(file)),
         ("function", format!("{prefix}_control")),
         ("PREFIX", prefix.to_uppercase()),
@@ -159,10 +158,11 @@ fn comment(text: &str) -> String {
     text.chars().map(|c| if plain(c) { c } else { '_' }).collect()
 }
 
-fn promise(promise: &Promise) -> String {
+/// Sentences as lines of a comment.
+fn promise(sentences: &[String]) -> String {
     let mut lines = vec![];
     let mut line = String::from(" *");
-    for word in promise.sentences().iter().flat_map(|sentence| sentence.split(' ')) {
+    for word in sentences.iter().flat_map(|sentence| sentence.split(' ')) {
         if line.len() + word.len() + 1 > WIDTH {
             lines.push(std::mem::replace(&mut line, String::from(" *")));
         }

@@ -1,6 +1,5 @@
 //! The controller as self-describing JSON.
 
-use super::promise::Promise;
 use crate::controller::Controller;
 use crate::model_file::Problem;
 use crate::partition::{CellId, CellKind};
@@ -13,7 +12,6 @@ use std::io::{self, Write};
 /// # Errors
 /// What writing gives.
 pub fn write_json(controller: &Controller, problem: &Problem, mut out: impl Write) -> io::Result<()> {
-    let promise = Promise::new(problem, controller);
     let n = controller.state_dimension();
     let system = &problem.step_system;
     let law = &controller.law;
@@ -26,7 +24,11 @@ pub fn write_json(controller: &Controller, problem: &Problem, mut out: impl Writ
         "version": env!("CARGO_PKG_VERSION"),
         "name": problem.name,
         "units": "states, inputs and times are in the units of the model file; one step is one step of its dynamics",
-        "promise": {"text": promise.sentences().join(" "), "numbers": promise},
+        "promise": {
+            "text": controller.promise().join(" "),
+            "numbers": controller.promised(),
+            "guarantee": controller.guarantee(),
+        },
         "system": {
             "about": "x+ = A x + B u + q + noise, one step",
             "A": matrix(&system.a().to_f64()),

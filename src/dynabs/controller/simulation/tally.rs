@@ -2,7 +2,7 @@
 
 use super::Violation;
 use super::runs::{End, RunOutcome};
-use crate::model_file::Safety;
+use crate::guarantee::Safety;
 use crate::statistics::{lower_bound, upper_bound};
 use serde::Serialize;
 
