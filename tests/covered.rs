@@ -1,6 +1,7 @@
 //! Which answers are claims about the system: by hand, and against all paths of a small system.
 
-use crate::common::abstraction;
+use crate::common::{abstraction, root};
+use assert_cmd::Command;
 use dynabs::guarantee::{Coverage, Event, Evidence, Gap, Guarantee, Safety, SampleEvidence};
 use imdp::model::{
     ActionNames, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowRange, Rows, StateSet,
@@ -10,6 +11,10 @@ use imdp::property::{
     Comparison, IntegerExpression, PathFormula, Property, Resolution, StateFormula, parse_property,
 };
 use proptest::prelude::*;
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
 
 /// Properties of `room_temperature`, whether the answer is covered, and if not why.
 #[test]
@@ -54,6 +59,73 @@ fn what_is_covered_and_why_not() {
     let property = parse_property(r#"Pmaxmin=? [ F "reached" ]"#).unwrap();
     let found = published.guarantee.coverage(&property, &published.model).unwrap();
     assert_eq!(found, not(&[Gap::Published]));
+}
+
+/// Compiles a model with all its files.
+fn compiled(model: &str, directory: &Path) {
+    let model = root().join(model);
+    let mut command = Command::cargo_bin("dynabs-compile").unwrap();
+    command.arg(model).arg("-o").arg(directory).arg("-q").assert().success();
+}
+
+/// The answers of `dynabs-check solve --json`.
+fn solved(path: &Path, arguments: &[&str]) -> Vec<Value> {
+    let mut command = Command::cargo_bin("dynabs-check").unwrap();
+    let output = command.arg("solve").arg(path).args(arguments).arg("--json").output().unwrap();
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    json["results"].as_array().unwrap().clone()
+}
+
+/// Doubling makes every input from 3.75 leave the partition: nothing is enabled there, and failing is certain.
+#[test]
+fn a_run_that_starts_where_nothing_is_enabled_has_failed() {
+    let scratch = TempDir::new().unwrap();
+    let run = scratch.path().join("run");
+    compiled("tests/data/soundness/blk.json", &run);
+    let asked = [
+        ("Pmaxmax=? [ F \"failed\" ]", 1.0, false),
+        ("Pmaxmin=? [ G !\"failed\" ]", 0.0, false),
+        ("Pmaxmin=? [ F \"reached\" ]", 0.0, true),
+        ("Pminmax=? [ !\"reached\" U \"failed\" ]", 1.0, true),
+    ];
+    let arguments: Vec<&str> = asked.iter().flat_map(|(property, ..)| ["-p", property]).collect();
+    for (result, (property, value, covered)) in solved(&run, &arguments).iter().zip(asked) {
+        assert_eq!([&result["lower"], &result["upper"]], [value, value], "{property}");
+        assert_eq!(result["guarantee"]["covered"], covered, "{property}");
+        assert_eq!(result["guarantee"]["confidence"], if covered { 0.99.into() } else { Value::Null });
+    }
+}
+
+/// Nothing is claimed of a file that is not the run's, or not its numbers.
+#[test]
+fn claims_are_about_the_file_that_was_compiled() {
+    let scratch = TempDir::new().unwrap();
+    let (run, other) = (scratch.path().join("run"), scratch.path().join("other"));
+    compiled("models/room_temperature.json", &run);
+    compiled("tests/data/soundness/blk.json", &other);
+    let claim = |path: &Path, arguments: &[&str]| solved(path, arguments)[0]["guarantee"].clone();
+    assert_eq!(claim(&run, &[])["covered"], true);
+    assert!(claim(&run, &["--explicit"])["text"].as_str().unwrap().contains("raised"));
+    // A file by itself is of no run.
+    assert_eq!(claim(&run.join("model.dynabs"), &[]), Value::Null);
+    fs::copy(other.join("model.dynabs"), run.join("model.dynabs")).unwrap();
+    let foreign = claim(&run, &[]);
+    assert_eq!(foreign["covered"], false);
+    assert!(foreign["text"].as_str().unwrap().contains("not the file"), "{foreign}");
+}
+
+/// People read the same.
+#[test]
+fn the_table_says_it_too() {
+    let scratch = TempDir::new().unwrap();
+    let run = scratch.path().join("run");
+    compiled("models/room_temperature.json", &run);
+    let mut command = Command::cargo_bin("dynabs-check").unwrap();
+    let asked = ["-p", "Pmaxmin=? [ F \"reached\" ]", "-p", "Pmaxmin=? [ G !\"failed\" ]"];
+    let output = command.arg("solve").arg(&run).args(asked).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("\n  covered: a controller attains at least 0.99"), "{text}");
+    assert!(text.contains("\n  not covered: the model stays in \"reached\""), "{text}");
 }
 
 /// The cells of a small system: three ordinary ones, a goal cell and an unsafe one.

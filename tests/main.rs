@@ -16,6 +16,7 @@ mod diff;
 mod formats;
 mod guarantee;
 mod import;
+mod intervals;
 mod native;
 mod open;
 mod output;

@@ -6,8 +6,9 @@ use dynabs::Warning;
 use dynabs::abstraction::{Abstraction, compile};
 use dynabs::controller::{Noise, Simulation};
 use dynabs::guarantee::{Evidence, Safety};
-use dynabs::model_file::{Document, Problem};
+use dynabs::model_file::Document;
 use dynabs::noise::NoiseSamples;
+use dynabs::problem::Problem;
 use imdp::solver::{Answer, SolverOptions};
 use rand::SeedableRng;
 use rand_chacha::ChaCha12Rng;
@@ -28,7 +29,7 @@ fn case(name: &str, sets: &[&str]) -> Document {
 }
 
 fn problem(name: &str, sets: &[&str]) -> Problem {
-    Problem::from_document(&case(name, sets)).unwrap()
+    case(name, sets).problem().unwrap()
 }
 
 fn value(abstraction: &Abstraction) -> f64 {
@@ -38,18 +39,18 @@ fn value(abstraction: &Abstraction) -> f64 {
 #[test]
 fn a_wall_between_grouped_steps_cannot_be_crossed() {
     let problem = problem("between", &[]);
-    assert_eq!(problem.safety, Safety::EveryStep);
+    assert_eq!(problem.safety(), Safety::EveryStep);
     let closed = Loop::new(problem);
     assert_eq!(closed.answer.lower, 0.0);
     // What is promised elsewhere holds at every step.
     let cells = (0..closed.controller.num_cells()).map(dynabs::partition::CellId);
     let best =
         cells.max_by(|&a, &b| closed.controller.bound(a).total_cmp(&closed.controller.bound(b))).unwrap();
-    let axes = closed.problem.grid.axes().iter().enumerate();
+    let axes = closed.problem.grid().axes().iter().enumerate();
     let start: Vec<f64> = axes
-        .map(|(j, axis)| imdp::numeric::to_f64(&axis.center(closed.problem.grid.coordinate(best, j))))
+        .map(|(j, axis)| imdp::numeric::to_f64(&axis.center(closed.problem.grid().coordinate(best, j))))
         .collect();
-    let noise = Noise::of(&closed.problem.noise);
+    let noise = Noise::of(closed.problem.noise());
     let tally = Simulation::new(&closed.problem, &closed.controller, noise, 0).tally(&start, 1, 4000, &());
     assert!(closed.controller.bound(best) > 0.9);
     assert!(
@@ -61,8 +62,8 @@ fn a_wall_between_grouped_steps_cannot_be_crossed() {
 #[test]
 fn the_old_statement_is_on_request_and_every_run_shows_what_it_lacks() {
     let closed = Loop::new(problem("between", &["/task/check=grouped"]));
-    assert!(closed.problem.safety == Safety::GroupedInstants && closed.answer.lower > 0.99);
-    let noise = Noise::of(&closed.problem.noise);
+    assert!(closed.problem.safety() == Safety::GroupedInstants && closed.answer.lower > 0.99);
+    let noise = Noise::of(closed.problem.noise());
     let tally =
         Simulation::new(&closed.problem, &closed.controller, noise, 0).tally(&[-1.05, 0.05], 1, 2000, &());
     assert_eq!((tally.satisfied, tally.unsafe_between), (0, 2000));
@@ -97,7 +98,7 @@ fn grouped_samples_say_nothing_about_steps_in_between() {
                 r#"/noise={"samples":{"file":"noise/spacecraft.csv","of":"grouped"}}"#.into(),
             ],
         );
-        Problem::from_document(&document).map(|problem| problem.safety).map_err(|error| error.to_string())
+        document.problem().map(|problem| problem.safety()).map_err(|error| error.to_string())
     };
     assert_eq!(refused("grouped"), Ok(Safety::GroupedInstants));
     let error = refused("every_step").unwrap_err();
@@ -158,7 +159,7 @@ fn with_samples(scratch: &TempDir, noise: impl FnMut(usize) -> f64) -> Problem {
         "initial_state": [0.5],
     });
     let directory: &Path = scratch.path();
-    Problem::from_document(&Document { name: "series".into(), directory: directory.into(), value }).unwrap()
+    Document { name: "series".into(), directory: directory.into(), value }.problem().unwrap()
 }
 
 fn uniform(random: &mut ChaCha12Rng) -> f64 {
@@ -167,7 +168,7 @@ fn uniform(random: &mut ChaCha12Rng) -> f64 {
 }
 
 fn looks_dependent(problem: &Problem) -> bool {
-    problem.warnings.iter().any(|warning| matches!(warning, Warning::NotIndependent { .. }))
+    problem.warnings().iter().any(|warning| matches!(warning, Warning::NotIndependent { .. }))
 }
 
 #[test]

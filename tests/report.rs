@@ -3,7 +3,6 @@ use crate::common::{document, reference_mode, root, shipped_models};
 use assert_cmd::Command;
 use dynabs::abstraction::compile;
 use dynabs::controller::Controller;
-use dynabs::model_file::Problem;
 use dynabs::report::{CROSS_CHECK, CrossChecks, Material, MaterialOptions, Picture, page, pictures};
 use dynabs::run::{Manifest, Run, WriteOptions, write_run};
 use imdp::solver::{Answer, SolverOptions};
@@ -18,7 +17,7 @@ use tempfile::TempDir;
 fn compiled(scratch: &TempDir, model: &str, sets: &[&str]) -> PathBuf {
     let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
     let document = document(model, &sets);
-    let problem = Problem::from_document(&document).unwrap();
+    let problem = document.problem().unwrap();
     let abstraction = compile(&problem, &()).unwrap();
     let manifest = Manifest::new(&document, "", &problem, &abstraction);
     let directory = scratch.path().join(model);
@@ -144,8 +143,8 @@ fn assert_truthful(reported: &Reported) {
     let bytes = decoded(data["values"]["data"].as_str().unwrap());
     let values: Vec<f64> =
         bytes.chunks_exact(4).map(|bytes| f64::from(f32::from_le_bytes(bytes.try_into().unwrap()))).collect();
-    let cells = run.problem.grid.num_cells() as usize;
-    let steps = run.problem.horizon.unwrap_or(0) as usize + 1;
+    let cells = run.problem.grid().num_cells() as usize;
+    let steps = run.problem.horizon().unwrap_or(0) as usize + 1;
     assert_eq!(values.len(), cells * steps);
     for (value, &state) in values.iter().zip(&run.abstraction.state_of_cell) {
         let exact = answer.values.lower[state as usize];

@@ -1,7 +1,7 @@
 //! Errors as the tools report them, and their exit codes.
 
+use dynabs::Diagnostic;
 use dynabs::abstraction::AbstractionError;
-use dynabs::model_file::Diagnostic;
 use dynabs::run::RunDirectoryError;
 use std::io::{self, Write};
 use std::process::ExitCode;

@@ -1,12 +1,14 @@
 //! Where a model to be solved comes from: a run directory or a file of any format.
 
 use super::{Bars, CliError};
+use dynabs::guarantee::{Claim, Gap, Guarantee};
 use dynabs::run::{Manifest, NATIVE_MODEL};
 use imdp::certificate::ModelFile;
 use imdp::formats::Format;
 use imdp::formats::sha256_of_file;
 use imdp::model::IntervalMdp;
 use imdp::progress::Progress;
+use imdp::property::{Property, PropertyError};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -18,9 +20,34 @@ pub(super) struct LoadedModel {
     pub(super) properties: PathBuf,
     /// The files it was read from.
     files: Vec<PathBuf>,
+    /// What was promised of the run that it is of.
+    promise: Option<Promise>,
+}
+
+/// What the manifest of a run promises of the model that was read.
+struct Promise {
+    guarantee: Guarantee,
+    /// Why it is not about the file that was read.
+    gap: Option<Gap>,
 }
 
 impl LoadedModel {
+    /// What bounds on the value of a property claim of the system; none for models that are of no run.
+    ///
+    /// # Errors
+    /// [`PropertyError`] if the property makes no sense for the model.
+    pub(super) fn claim(
+        &self,
+        property: &Property,
+        bounds: [f64; 2],
+    ) -> Result<Option<Claim>, PropertyError> {
+        let claim = |promise: &Promise| match promise.gap {
+            Some(gap) => Ok(promise.guarantee.no_claim(&[gap])),
+            None => promise.guarantee.claim(property, &self.model, bounds),
+        };
+        self.promise.as_ref().map(claim).transpose()
+    }
+
     /// What a certificate says about the files that the model was read from.
     ///
     /// # Errors
@@ -58,8 +85,12 @@ pub(super) fn load(path: &Path, explicit: bool, bars: &Bars) -> Result<LoadedMod
 
 fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<LoadedModel, CliError> {
     let (native, tra) = (directory.join(NATIVE_MODEL), directory.join("model.tra"));
+    let manifest = fs::read(directory.join("manifest.json")).ok();
+    let manifest = manifest.and_then(|bytes| serde_json::from_slice::<Manifest>(&bytes).ok());
     if native.exists() && !explicit {
-        return load_file(&native, Format::Native, bars);
+        let mut loaded = load_file(&native, Format::Native, bars)?;
+        loaded.promise = promise(manifest.as_ref(), &loaded, false)?;
+        return Ok(loaded);
     }
     if !tra.exists() {
         let wanted =
@@ -70,14 +101,33 @@ fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<Loade
         )));
     }
     let mut loaded = load_file(&tra, Format::Prism, bars)?;
-    let manifest = fs::read(directory.join("manifest.json")).ok();
-    let manifest = manifest.and_then(|bytes| serde_json::from_slice::<Manifest>(&bytes).ok());
-    if let Some(manifest) = manifest
-        && loaded.model.rows().iter().any(|row| row.lower.contains(&manifest.prism_lower_bound))
-    {
-        loaded.warnings.push(raised_bounds(&manifest, &loaded.model));
-    }
+    let raised = |manifest: &&Manifest| {
+        loaded.model.rows().iter().any(|row| row.lower.contains(&manifest.prism_lower_bound))
+    };
+    let raised = manifest.as_ref().filter(raised);
+    loaded.promise = promise(manifest.as_ref(), &loaded, raised.is_some())?;
+    loaded.warnings.extend(raised.map(|manifest| raised_bounds(manifest, &loaded.model)));
     Ok(loaded)
+}
+
+/// What the manifest promises, which is nothing of files that it does not describe.
+fn promise(
+    manifest: Option<&Manifest>,
+    loaded: &LoadedModel,
+    raised: bool,
+) -> Result<Option<Promise>, CliError> {
+    let Some(manifest) = manifest else { return Ok(None) };
+    let described = || {
+        let digests = loaded.digests()?;
+        Ok::<_, CliError>(
+            (digests.iter()).all(|file| manifest.outputs.iter().any(|o| o.sha256 == file.sha256)),
+        )
+    };
+    let gap = match raised {
+        true => Some(Gap::RaisedBounds),
+        false => (!described()?).then_some(Gap::OtherModel),
+    };
+    Ok(Some(Promise { guarantee: manifest.guarantee.clone(), gap }))
 }
 
 /// What raising lower bounds of 0 for PRISM can do to the values of this file.
@@ -118,5 +168,11 @@ fn load_file(path: &Path, format: Format, bars: &Bars) -> Result<LoadedModel, Cl
         }
         _ => vec![path.to_owned()],
     };
-    Ok(LoadedModel { model: imported.model, warnings, properties: path.with_extension("props"), files })
+    Ok(LoadedModel {
+        model: imported.model,
+        warnings,
+        properties: path.with_extension("props"),
+        files,
+        promise: None,
+    })
 }

@@ -57,7 +57,7 @@ impl Report {
         // Of the decimal that was written: 0.01 for 0.99.
         let alpha = from_decimal(confidence).map_or(0.01, |p| to_f64(&(Rational::one() - p)));
         let bound = controller.bound_at(&from);
-        let safety = run.problem.safety;
+        let safety = run.problem.safety();
         let satisfied = tally.satisfaction(safety, alpha);
         Self {
             name: run.manifest.name.clone(),

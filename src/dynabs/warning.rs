@@ -38,8 +38,8 @@ pub enum Warning {
     },
     /// Samples at the end of a file do not fill a group.
     LeftOverSamples {
-        /// The file.
-        file: String,
+        /// The file, or the place in the problem.
+        source: String,
         /// How many.
         left_over: usize,
         /// Of how many.
@@ -49,8 +49,8 @@ pub enum Warning {
     },
     /// The samples of a file do not look independent and identically distributed.
     NotIndependent {
-        /// The file.
-        file: String,
+        /// The file, or the place in the problem.
+        source: String,
         /// How they depart from it.
         departure: Departure,
     },
@@ -101,11 +101,11 @@ impl fmt::Display for Warning {
                 "/stabilizer: −K(x − x̄) leaves U on the partition (a half-space with offset {offset} reaches \
                  {worst:.4}); cells where no action is left are reported as deadlocks"
             ),
-            Self::LeftOverSamples { file, left_over, samples, group_steps } => write!(
+            Self::LeftOverSamples { source, left_over, samples, group_steps } => write!(
                 f,
-                "{file}: the last {left_over} of {samples} samples do not fill a group of {group_steps} and are not used"
+                "{source}: the last {left_over} of {samples} samples do not fill a group of {group_steps} and are not used"
             ),
-            Self::NotIndependent { file, departure } => {
+            Self::NotIndependent { source, departure } => {
                 let Departure { dimension, of_size, trend, deviations } = departure;
                 let what = if *of_size { "how far they are from their middle" } else { "they" };
                 let trend = match trend {
@@ -117,7 +117,7 @@ impl fmt::Display for Warning {
                 };
                 write!(
                     f,
-                    "{file}: the samples do not look independent: in dimension {}, {what} {trend} ({deviations:.0} standard \
+                    "{source}: the samples do not look independent: in dimension {}, {what} {trend} ({deviations:.0} standard \
                      deviations); the promise holds only for samples that are independent and distributed like the noise \
                      at run time. Leave out what was measured before the system settled, or take every k-th sample",
                     dimension + 1

@@ -6,7 +6,7 @@ use crate::summary::summary;
 use crate::{Bars, CliError, EncodingName, FormatName, print, use_threads};
 use clap::Parser;
 use dynabs::abstraction::{Abstraction, compile};
-use dynabs::model_file::{Document, Problem, SetArgument, json_schema, starter_model};
+use dynabs::model_file::{Document, SetArgument, json_schema, starter_model};
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, write_run};
 use imdp::solver::Pruned;
 use serde_json::{Value, json};
@@ -146,7 +146,7 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
     }
     let source = read_model(path)?;
     let (document, mut notes) = configure(path, &source, arguments)?;
-    let problem = Problem::from_document(&document)?;
+    let problem = document.problem()?;
     let mut phases = vec![("model file", start.elapsed())];
 
     let mut abstraction =
@@ -189,6 +189,11 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
         let (model, property) = (&abstraction.model, &abstraction.property);
         results.push(answer(model, property, &limits, Wanted::default(), &bars)?.1);
         phases.push(("solving", solving.elapsed()));
+    }
+    for result in &mut results {
+        let (guarantee, bounds) = (&abstraction.guarantee, [result.lower, result.upper]);
+        let claim = guarantee.claim(&abstraction.property, &abstraction.model, bounds);
+        result.guarantee = Some(claim.map_err(|error| CliError::Failure(error.to_string()))?);
     }
     report(arguments, &manifest, &phases, &results)?;
     Ok(exit_code(&results))

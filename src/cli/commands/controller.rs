@@ -37,7 +37,7 @@ pub fn run(arguments: &ControllerArguments) -> Result<ExitCode, CliError> {
     let problem = &run.problem;
     match form {
         Form::Json => replace(path, |out| write_json(&controller, problem, out))?,
-        Form::Csv => replace(path, |out| write_csv(&controller, &problem.grid, out))?,
+        Form::Csv => replace(path, |out| write_csv(&controller, problem.grid(), out))?,
         Form::C => {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             let text = c_source(&controller, problem, &name).map_err(|error| match error {

@@ -103,7 +103,9 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     let mut results = Vec::with_capacity(properties.len());
     bars.catch_interrupts()?;
     for property in &properties {
-        let (mut answer, result) = answer(&loaded.model, property, &arguments.limits, wanted, &bars)?;
+        let (mut answer, mut result) = answer(&loaded.model, property, &arguments.limits, wanted, &bars)?;
+        let claim = loaded.claim(property, [answer.lower, answer.upper]);
+        result.guarantee = claim.map_err(|error| CliError::Input(format!("{property}: {error}")))?;
         if let Some(path) = &arguments.values {
             write_values(path, &loaded.model, &answer)?;
         }

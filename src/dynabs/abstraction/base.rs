@@ -8,7 +8,7 @@ use super::pac::Prepared;
 use super::steering::Steering;
 use super::windows::Windows;
 use crate::Warning;
-use crate::model_file::{Probabilities, Problem};
+use crate::problem::{Probabilities, Problem};
 use imdp::progress::Progress;
 
 /// All that is known before the choices of the model are.
@@ -48,11 +48,11 @@ impl<'a> Base<'a> {
         progress: &dyn Progress,
     ) -> Result<Self, AbstractionError> {
         let (law, targets) = (&steering.law, &steering.targets);
-        let is_pac = matches!(problem.probabilities, Probabilities::Pac { .. });
+        let is_pac = matches!(problem.probabilities(), Probabilities::Pac { .. });
         let tolerance = is_pac.then(|| law.steering_error(&steering.extent));
-        let placements = Placements::new(&problem.grid, targets, tolerance);
+        let placements = Placements::new(problem.grid(), targets, tolerance);
         let hazards = Hazards::in_between(problem);
-        let intervals = match &problem.probabilities {
+        let intervals = match problem.probabilities() {
             Probabilities::Pac { beta, sweep, discard } => {
                 let statement = (beta, *sweep, *discard as usize);
                 let prepared = Prepared::new(problem, statement, targets, &placements, hazards.as_ref())?;

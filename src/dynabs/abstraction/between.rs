@@ -4,8 +4,8 @@ use super::enabled::EnabledActions;
 use super::hazards::Hazards;
 use super::steering::Steering;
 use super::windows::Windows;
-use crate::model_file::Problem;
 use crate::partition::{CellId, Grid};
+use crate::problem::Problem;
 use imdp::model::{RowId, RowRange};
 use imdp::numeric::{UNIT_ROUNDOFF, to_f64_up};
 use imdp::progress::Progress;
@@ -42,8 +42,8 @@ impl<'a> Between<'a> {
         steering: &Steering,
         windows: &Windows,
     ) -> Self {
-        let grid = &problem.grid;
-        let steps = (1..problem.group_steps).map(|i| Step::new(problem, steering, windows, i));
+        let grid = problem.grid();
+        let steps = (1..problem.group_steps()).map(|i| Step::new(problem, steering, windows, i));
         Self {
             hazards,
             grid,
@@ -91,8 +91,8 @@ impl<'a> Between<'a> {
 impl Step {
     /// The step after `i` of the steps of a group.
     fn new(problem: &Problem, steering: &Steering, windows: &Windows, i: usize) -> Self {
-        let (n, targets) = (problem.grid.dimension(), &steering.targets);
-        let image = steering.law.partial_image(&problem.step_system, i, &steering.extent);
+        let (n, targets) = (problem.grid().dimension(), &steering.targets);
+        let image = steering.law.partial_image(problem.step_system(), i, &steering.extent);
         let mut by_target = Vec::with_capacity(targets.len() * n);
         let mut point = vec![0.0; n];
         for target in 0..targets.len() {
@@ -103,7 +103,7 @@ impl Step {
             );
         }
         let half_widths: Vec<f64> =
-            problem.grid.axes().iter().map(|axis| 0.5 * to_f64_up(axis.width())).collect();
+            problem.grid().axes().iter().map(|axis| 0.5 * to_f64_up(axis.width())).collect();
         let (noise_lower, noise_upper) = windows.between(0, i - 1);
         let reach = |j: usize, noise: f64| {
             let cell: f64 = (0..n).map(|k| image.state[(j, k)].abs() * half_widths[k]).sum();

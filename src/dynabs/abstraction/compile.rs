@@ -10,8 +10,8 @@ use super::targets::Targets;
 use super::{AbstractionError, reference};
 use crate::Warning;
 use crate::guarantee::{Event, Evidence, Guarantee};
-use crate::model_file::{Probabilities, Problem};
 use crate::partition::{CellId, CellKind, Grid};
+use crate::problem::{Probabilities, Problem};
 use crate::system::FeedbackLaw;
 use imdp::model::{
     ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, ModelKind, Parts, RowRange, Rows, StateId,
@@ -66,7 +66,7 @@ impl Clock {
 /// [`AbstractionError`] if nothing is enabled, the samples are too few or the model too large.
 pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction, AbstractionError> {
     let mut clock = Clock { start: Instant::now(), phases: vec![] };
-    let grid = &problem.grid;
+    let grid = problem.grid();
     let steering = Steering::new(problem)?;
     clock.lap("law");
 
@@ -88,7 +88,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
             rows,
             choices: choices.clone(),
             actions: ActionNames::OfRow,
-            initial: states.initial(problem.initial_cell, &problem.labels),
+            initial: states.initial(problem.initial_cell(), problem.labels()),
             labels: labels(blocked.clone(), reached.clone(), failed.clone()),
             variables: states.variables(grid),
         })
@@ -101,7 +101,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
             (rows, Evidence::Published { beta_per_interval })
         }
         Intervals::Pac(prepared) => {
-            let outcomes = Outcomes::new(&problem.labels, |cell| enabling.is_idle(cell));
+            let outcomes = Outcomes::new(problem.labels(), |cell| enabling.is_idle(cell));
             let pac = PacRows::new(problem, *prepared, targets, placements, &states, &outcomes)?;
             let rows = pac.rows(progress);
             clock.lap("rows");
@@ -162,7 +162,7 @@ impl Abstraction {
         let blocked = states.select(|state| is_blocked(problem, &states, model.choices(), state));
         Ok(Self {
             property: reach_avoid(problem),
-            state_of_cell: state_of_cell(&problem.grid, &states),
+            state_of_cell: state_of_cell(problem.grid(), &states),
             warnings: warnings(problem, blocked.count_ones(..)),
             model,
             targets: steering.targets,
@@ -174,9 +174,9 @@ impl Abstraction {
 }
 
 fn state_space(problem: &Problem) -> StateSpace {
-    match problem.probabilities {
-        Probabilities::Pac { .. } => StateSpace::merged(&problem.labels),
-        Probabilities::Reference { .. } => StateSpace::complete(&problem.grid),
+    match problem.probabilities() {
+        Probabilities::Pac { .. } => StateSpace::merged(problem.labels()),
+        Probabilities::Reference { .. } => StateSpace::complete(problem.grid()),
     }
 }
 
@@ -190,7 +190,7 @@ fn choices(problem: &Problem, states: &StateSpace, enabled: &EnabledActions) -> 
     let mut counts = enabled.ranges_per_cell.iter();
     let mut ranges = enabled.ranges.as_slice();
     for (_, cell) in states.cells() {
-        if problem.labels.kind(cell) != CellKind::Ordinary {
+        if problem.labels().kind(cell) != CellKind::Ordinary {
             // The published tool draws goal and unsafe cells without choices.
             builder.finish_state();
             continue;
@@ -211,7 +211,7 @@ fn choices(problem: &Problem, states: &StateSpace, enabled: &EnabledActions) -> 
 /// Whether a state is an ordinary cell with nothing enabled.
 fn is_blocked(problem: &Problem, states: &StateSpace, choices: &Choices, state: StateId) -> bool {
     choices.is_absorbing(state)
-        && states.cell(state).is_some_and(|cell| problem.labels.kind(cell) == CellKind::Ordinary)
+        && states.cell(state).is_some_and(|cell| problem.labels().kind(cell) == CellKind::Ordinary)
 }
 
 /// The states that are labelled `reached` and `failed`.
@@ -224,7 +224,7 @@ fn outcome_states(
     let of_kind = |kind, heads: &[StateId]| {
         states.select(|state| match states.cell(state) {
             None => heads.contains(&state),
-            Some(cell) => problem.labels.kind(cell) == kind,
+            Some(cell) => problem.labels().kind(cell) == kind,
         })
     };
     if is_pac {
@@ -242,9 +242,9 @@ fn reach_avoid(problem: &Problem) -> Property {
     let path = PathFormula::Until {
         left: StateFormula::negation(StateFormula::label("failed")),
         right: StateFormula::label("reached"),
-        steps: problem.horizon,
+        steps: problem.horizon(),
     };
-    match &problem.threshold {
+    match problem.threshold() {
         None => Property::value(Resolution::Pmaxmin, path),
         Some(probability) => {
             let comparison = ThresholdComparison::AtLeast;
@@ -257,11 +257,11 @@ fn reach_avoid(problem: &Problem) -> Property {
 fn warnings(problem: &Problem, blocked: usize) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if blocked > 0 {
-        let ordinary = problem.labels.count(CellKind::Ordinary);
+        let ordinary = problem.labels().count(CellKind::Ordinary);
         warnings.push(Warning::NothingEnabled { cells: blocked, ordinary });
     }
-    if let Some(cell) = problem.initial_cell
-        && problem.labels.kind(cell) == CellKind::Unsafe
+    if let Some(cell) = problem.initial_cell()
+        && problem.labels().kind(cell) == CellKind::Unsafe
     {
         warnings.push(Warning::UnsafeStart);
     }

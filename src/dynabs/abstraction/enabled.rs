@@ -194,7 +194,7 @@ fn push(ranges: &mut Vec<RowRange>, first: RowId, last: RowId) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model_file::TargetPoints;
+    use crate::problem::TargetPoints;
     use imdp::numeric::from_decimal;
     use proptest::prelude::*;
 

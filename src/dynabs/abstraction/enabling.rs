@@ -6,8 +6,8 @@ use super::enabled::EnabledActions;
 use super::hazards::Hazards;
 use super::steering::Steering;
 use super::windows::Windows;
-use crate::model_file::Problem;
 use crate::partition::{CellId, CellKind};
+use crate::problem::Problem;
 use imdp::progress::Progress;
 
 /// The enabled actions of all ordinary cells.
@@ -27,7 +27,7 @@ impl Enabling {
         hazards: Option<(&Hazards, &Windows)>,
         progress: &dyn Progress,
     ) -> Result<Self, AbstractionError> {
-        let ordinary: Vec<CellId> = (problem.labels.iter())
+        let ordinary: Vec<CellId> = (problem.labels().iter())
             .filter_map(|(cell, kind)| (kind == CellKind::Ordinary).then_some(cell))
             .collect();
         progress.start("enabled actions", ordinary.len() as u64);
@@ -35,9 +35,9 @@ impl Enabling {
         progress.finish();
         let is_empty = |actions: &EnabledActions| actions.ranges.is_empty() && !ordinary.is_empty();
         if is_empty(&actions) {
-            return Err(AbstractionError::NothingEnabled { stabilized: problem.stabilizer.is_some() });
+            return Err(AbstractionError::NothingEnabled { stabilized: problem.stabilizer().is_some() });
         }
-        let mut idle = vec![false; problem.grid.num_cells() as usize];
+        let mut idle = vec![false; problem.grid().num_cells() as usize];
         for (cell, &count) in ordinary.iter().zip(&actions.ranges_per_cell) {
             idle[cell.index()] = count == 0;
         }
@@ -47,7 +47,7 @@ impl Enabling {
             actions = between.filter(&ordinary, &actions, progress);
             progress.finish();
             if is_empty(&actions) {
-                return Err(AbstractionError::NothingClear { group_steps: problem.group_steps });
+                return Err(AbstractionError::NothingClear { group_steps: problem.group_steps() });
             }
         }
         Ok(Self { actions, idle })

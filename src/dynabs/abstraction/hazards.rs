@@ -1,8 +1,8 @@
 //! What must be avoided at every step.
 
 use crate::guarantee::Safety;
-use crate::model_file::{Probabilities, Problem};
 use crate::partition::Region;
+use crate::problem::{Probabilities, Problem};
 use imdp::numeric::{Rational, to_f64_down, to_f64_up};
 
 /// The unsafe regions as boxes in doubles, rounded outwards, and the partition if its outside is unsafe too, rounded
@@ -24,21 +24,21 @@ struct Side {
 impl Hazards {
     /// Those that must be avoided between grouped instants too; none if nothing is unsafe or there is no step in between.
     pub(super) fn in_between(problem: &Problem) -> Option<Self> {
-        let axes = problem.grid.axes();
-        let outside = problem.outside_is_unsafe;
-        let is_pac = matches!(problem.probabilities, Probabilities::Pac { .. });
-        let anywhere = !problem.unsafe_.is_empty() || outside;
-        if !(is_pac && anywhere && problem.group_steps > 1 && problem.safety == Safety::EveryStep) {
+        let axes = problem.grid().axes();
+        let outside = problem.outside_is_unsafe();
+        let is_pac = matches!(problem.probabilities(), Probabilities::Pac { .. });
+        let anywhere = !problem.unsafe_regions().is_empty() || outside;
+        if !(is_pac && anywhere && problem.group_steps() > 1 && problem.safety() == Safety::EveryStep) {
             return None;
         }
         let is_bounded = |region: &Region, j: usize| region.lower[j].is_some() || region.upper[j].is_some();
         let partition =
             axes.iter().map(|axis| Side { lower: to_f64_up(axis.lower()), upper: to_f64_down(axis.upper()) });
         Some(Self {
-            boxes: problem.unsafe_.iter().map(sides).collect(),
+            boxes: problem.unsafe_regions().iter().map(sides).collect(),
             partition: outside.then(|| partition.collect()),
             watched: (0..axes.len())
-                .map(|j| outside || problem.unsafe_.iter().any(|region| is_bounded(region, j)))
+                .map(|j| outside || problem.unsafe_regions().iter().any(|region| is_bounded(region, j)))
                 .collect(),
         })
     }

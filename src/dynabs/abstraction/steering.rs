@@ -3,8 +3,8 @@
 use super::AbstractionError;
 use super::enabled::{EnabledActions, enabled_actions};
 use super::targets::Targets;
-use crate::model_file::Problem;
 use crate::partition::CellId;
+use crate::problem::{Actions, Problem};
 use crate::system::{Extent, FeedbackLaw, SteeringConstraint};
 use imdp::progress::Progress;
 
@@ -18,12 +18,13 @@ pub(super) struct Steering {
 
 impl Steering {
     pub(super) fn new(problem: &Problem) -> Result<Self, AbstractionError> {
-        let targets = Targets::new(&problem.targets, &problem.grid);
-        let layers = problem.stabilizer.as_ref().map(|stabilizer| &stabilizer.layers);
-        let law = FeedbackLaw::new(&problem.system, layers).ok_or(AbstractionError::NotSteerable)?;
-        let extent = Extent { state: problem.grid.magnitudes(), target: targets.magnitudes() };
+        let Actions::Targets(points) = problem.actions();
+        let targets = Targets::new(points, problem.grid());
+        let layers = problem.stabilizer().map(|stabilizer| &stabilizer.layers);
+        let law = FeedbackLaw::new(problem.system(), layers).ok_or(AbstractionError::NotSteerable)?;
+        let extent = Extent { state: problem.grid().magnitudes(), target: targets.magnitudes() };
         let constraints =
-            law.constraints(&problem.input, layers.map(|layers| layers.abstract_input()), &extent);
+            law.constraints(problem.input(), layers.map(|layers| layers.abstract_input()), &extent);
         Ok(Self { targets, law, extent, constraints })
     }
 
@@ -34,6 +35,6 @@ impl Steering {
         cells: &[CellId],
         progress: &dyn Progress,
     ) -> EnabledActions {
-        enabled_actions(&problem.grid, cells, &self.targets, &self.constraints, progress)
+        enabled_actions(problem.grid(), cells, &self.targets, &self.constraints, progress)
     }
 }

@@ -1,7 +1,7 @@
 //! The points that actions steer to.
 
-use crate::model_file::TargetPoints;
 use crate::partition::{Axis, Grid};
+use crate::problem::TargetPoints;
 use imdp::numeric::{Rational, to_f64};
 use num_traits::ToPrimitive;
 

@@ -4,8 +4,8 @@ use super::law::InputLaw;
 use super::schedule::{Entry, Schedule};
 use crate::abstraction::{Abstraction, Targets};
 use crate::guarantee::{Bound, Guarantee};
-use crate::model_file::Problem;
 use crate::partition::{CellId, CellKind, CellLookup};
+use crate::problem::Problem;
 use imdp::solver::Answer;
 
 /// A policy of the interval MDP refined to the system: piecewise affine feedback `c(x, k)`.
@@ -74,20 +74,20 @@ impl Controller {
         let policy = answer.solution.policy.as_ref().ok_or(ControllerError::NoPolicy)?;
         let bound = |&state: &u32| answer.values.lower[state as usize];
         let bounds: Vec<f64> = abstraction.state_of_cell.iter().map(bound).collect();
-        let ordinary = problem.labels.iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
+        let ordinary = problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
         let promised = Bound {
-            initial_state: problem.initial_state.clone(),
-            bound: match problem.initial_cell {
+            initial_state: problem.initial_state().map(<[f64]>::to_vec),
+            bound: match problem.initial_cell() {
                 Some(cell) => bounds[cell.index()],
                 None => ordinary.map(|(cell, _)| bounds[cell.index()]).fold(1.0, f64::min),
             },
         };
         Ok(Self {
-            lookup: CellLookup::new(&problem.grid),
-            kinds: problem.labels.iter().map(|(_, kind)| kind).collect(),
-            horizon: problem.horizon,
-            group_steps: problem.group_steps,
-            step_inputs: problem.step_system.input_dimension(),
+            lookup: CellLookup::new(problem.grid()),
+            kinds: problem.labels().iter().map(|(_, kind)| kind).collect(),
+            horizon: problem.horizon(),
+            group_steps: problem.group_steps(),
+            step_inputs: problem.step_system().input_dimension(),
             law: InputLaw::new(&abstraction.law),
             points: points(&abstraction.targets),
             schedule: Schedule::new(abstraction, policy),

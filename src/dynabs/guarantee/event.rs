@@ -1,6 +1,6 @@
 //! What is promised to happen.
 
-use crate::model_file::Problem;
+use crate::problem::Problem;
 use serde::{Deserialize, Serialize};
 
 /// Reaching the goal in time and avoiding the unsafe region until then.
@@ -29,13 +29,13 @@ pub enum Safety {
 impl Event {
     /// The task of a problem.
     pub fn of(problem: &Problem) -> Self {
-        let group_steps = problem.group_steps as u64;
-        let outside_everywhere = group_steps == 1 || problem.outside_is_unsafe;
+        let group_steps = problem.group_steps() as u64;
+        let outside_everywhere = group_steps == 1 || problem.outside_is_unsafe();
         Self {
-            horizon: problem.horizon.map(|steps| steps * group_steps),
+            horizon: problem.horizon().map(|steps| steps * group_steps),
             group_steps,
-            safety: problem.safety,
-            outside: if outside_everywhere { problem.safety } else { Safety::GroupedInstants },
+            safety: problem.safety(),
+            outside: if outside_everywhere { problem.safety() } else { Safety::GroupedInstants },
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// Why the answer to a property says nothing about the system.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gap {
     /// The model is in reference mode.
     Published,

@@ -5,6 +5,7 @@
 //! they say in its words: summaries, reports, generated code, and the answers to properties ([`Coverage`]).
 
 mod bound;
+mod claim;
 mod coverage;
 mod event;
 mod evidence;
@@ -12,6 +13,7 @@ mod gap;
 mod words;
 
 pub use bound::{Bound, lower_bound_text};
+pub use claim::Claim;
 pub use coverage::Coverage;
 pub use event::{Event, Safety};
 pub use evidence::{Evidence, SampleEvidence};

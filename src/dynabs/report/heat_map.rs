@@ -37,7 +37,7 @@ pub(super) fn heat_map(material: &Material<'_>, view: &View) -> Plot {
         id,
         width: 720.0,
         height: 484.0,
-        title: format!("{}: {} over {across} and {up}", material.problem().name, material.value_name()),
+        title: format!("{}: {} over {across} and {up}", material.problem().name(), material.value_name()),
         description: description(material, view),
         content,
     }

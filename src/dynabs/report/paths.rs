@@ -58,7 +58,7 @@ fn arrow((x, y): (f64, f64), (dx, dy): (f64, f64), most: f64) -> String {
 
 /// The runs: lines through the grouped instants, the failed ones last and so on top.
 pub(super) fn runs(material: &Material<'_>, view: &View, frame: &Frame) -> String {
-    let d = material.problem().group_steps as f64;
+    let d = material.problem().group_steps() as f64;
     let mut drawn = [String::new(), String::new()];
     for trajectory in &material.trajectories {
         let pair = |step: u64, state: &[f64]| {

@@ -27,7 +27,7 @@ pub(super) fn simulation(material: &Material<'_>) -> String {
     if tally.runs == 0 {
         return "<p>Nothing was simulated.</p>\n".to_owned();
     }
-    let frequency = tally.satisfaction(material.problem().safety, 0.01);
+    let frequency = tally.satisfaction(material.problem().safety(), 0.01);
     let ends = [
         ("reached a goal cell", tally.reached),
         ("met the unsafe region (in a cell)", tally.r#unsafe),
@@ -37,7 +37,7 @@ pub(super) fn simulation(material: &Material<'_>) -> String {
         ("were given up", tally.unfinished),
     ];
     let share = |n: u64| short(n as f64 / tally.runs as f64);
-    let (grouped, safety) = (material.problem().group_steps > 1, material.problem().safety);
+    let (grouped, safety) = (material.problem().group_steps() > 1, material.problem().safety());
     let mut rows = vec![];
     if grouped {
         let [every, instants] = [tally.satisfied, tally.satisfied_at_instants];
@@ -78,7 +78,7 @@ pub(super) fn simulation(material: &Material<'_>) -> String {
 /// What was built and how long it took here.
 pub(super) fn sizes(material: &Material<'_>) -> String {
     let manifest = &material.run.manifest;
-    let grid = &material.problem().grid;
+    let grid = material.problem().grid();
     let per_axis: Vec<_> = grid.axes().iter().map(|axis| axis.cells().to_string()).collect();
     let factors = if per_axis.len() > 1 { per_axis.join(" × ") + " = " } else { String::new() };
     let mut rows = vec![

@@ -21,7 +21,7 @@ impl StepValues {
     pub(super) fn new(run: &Run, answer: &Answer, options: &SolverOptions<'_>) -> Result<Self, AnswerError> {
         let mut by_step = vec![of_cells(run, &answer.values.lower)];
         if let QueryKind::Until { safe, goal, steps: Some(horizon) } = &answer.query.kind {
-            let cells = u64::from(run.problem.grid.num_cells());
+            let cells = u64::from(run.problem.grid().num_cells());
             let last = (*horizon).min(MOST_STEPS).min((MOST_VALUES / cells).saturating_sub(1));
             let options = SolverOptions { policy: false, evidence: false, ..*options };
             for step in 1..=last {

@@ -40,12 +40,12 @@ impl View {
                 self.step
             }
         };
-        (material.problem().grid.cell(&coordinates), step)
+        (material.problem().grid().cell(&coordinates), step)
     }
 
     /// The numbers of columns and rows.
     pub(super) fn size(&self, material: &Material<'_>) -> (u32, u32) {
-        let cells = |j: usize| material.problem().grid.axes()[j].cells();
+        let cells = |j: usize| material.problem().grid().axes()[j].cells();
         let columns = match self.across {
             Axis::Time => material.last_step() as u32 + 1,
             Axis::State(j) => cells(j),

@@ -40,7 +40,7 @@ pub(super) fn guarantee(material: &Material<'_>) -> String {
 }
 
 fn threshold(material: &Material<'_>) -> String {
-    let Some(threshold) = &material.problem().threshold else { return String::new() };
+    let Some(threshold) = material.problem().threshold() else { return String::new() };
     let verdict = match material.answer.satisfied() {
         Some(true) => "it is met",
         Some(false) => "it is <strong>not</strong> met",
@@ -77,11 +77,11 @@ pub(super) fn warnings(run: &Run) -> String {
 
 /// What the plots show.
 pub(super) fn about_runs(material: &Material<'_>) -> String {
-    let chosen = match material.problem().initial_state {
+    let chosen = match material.problem().initial_state() {
         Some(_) => "the initial state",
         None => "the model names no initial state, so the cell with the median promise was taken",
     };
-    let between = match material.problem().group_steps {
+    let between = match material.problem().group_steps() {
         1 => String::new(),
         d => format!(" They join the grouped instants, every {d} steps."),
     };

@@ -5,7 +5,8 @@ use super::row_states::RowStatesReport;
 use crate::Warning;
 use crate::abstraction::Abstraction;
 use crate::guarantee::Guarantee;
-use crate::model_file::{Document, Problem};
+use crate::model_file::Document;
+use crate::problem::Problem;
 use imdp::formats::prism::RAISED_LOWER_BOUND;
 use imdp::formats::sha256_hex;
 
@@ -124,12 +125,12 @@ impl Manifest {
     /// Describes the compilation of `problem`; files are added by whoever writes them.
     pub fn new(document: &Document, source: &str, problem: &Problem, abstraction: &Abstraction) -> Self {
         let size = abstraction.model.size();
-        let d = problem.group_steps as u64;
+        let d = problem.group_steps() as u64;
         Self {
             format: FORMAT.into(),
             format_version: FORMAT_VERSION,
             version: env!("CARGO_PKG_VERSION").into(),
-            name: problem.name.clone(),
+            name: problem.name().to_owned(),
             states: size.states,
             choices: size.choices,
             transitions: size.transitions,
@@ -138,21 +139,26 @@ impl Manifest {
             mode: abstraction.guarantee.mode().into(),
             guarantee: abstraction.guarantee.clone(),
             horizon: problem
-                .horizon
+                .horizon()
                 .map(|steps| GroupedHorizon { model_steps: steps, original_steps: steps * d }),
             group_steps: d,
             property: abstraction.property.to_string(),
-            threshold: problem.threshold.as_ref().map(Probability::to_f64),
-            initial_state: problem.initial_state.clone(),
-            initial_model_state: problem.initial_cell.map(|cell| abstraction.state_of_cell[cell.index()]),
+            threshold: problem.threshold().map(Probability::to_f64),
+            initial_state: problem.initial_state().map(<[f64]>::to_vec),
+            initial_model_state: problem.initial_cell().map(|cell| abstraction.state_of_cell[cell.index()]),
             stabilizer: LayerReport::new(problem),
             row_states: None,
             pruning: None,
             prism_lower_bound: RAISED_LOWER_BOUND,
             prism_lower_bound_note: lower_bound_note(problem),
-            samples: problem.noise.samples.len() as u64,
-            seed: problem.noise.seed,
-            warnings: problem.warnings.iter().chain(&abstraction.warnings).map(Warning::to_string).collect(),
+            samples: problem.noise().samples.len() as u64,
+            seed: problem.noise().seed(),
+            warnings: problem
+                .warnings()
+                .iter()
+                .chain(&abstraction.warnings)
+                .map(Warning::to_string)
+                .collect(),
             set: vec![],
             inputs: inputs(document, source, problem),
             outputs: vec![],
@@ -167,7 +173,7 @@ impl Manifest {
 
 impl LayerReport {
     fn new(problem: &Problem) -> Option<Self> {
-        let stabilizer = problem.stabilizer.as_ref()?;
+        let stabilizer = problem.stabilizer()?;
         let gain = stabilizer.layers.gain().to_f64();
         Some(Self {
             gain: gain.row_iter().map(|row| row.iter().copied().collect()).collect(),
@@ -183,7 +189,7 @@ impl LayerReport {
 }
 
 fn lower_bound_note(problem: &Problem) -> String {
-    if problem.horizon.is_some() {
+    if problem.horizon().is_some() {
         "model.tra raises lower bounds of 0 to this: the value moves by at most horizon × row length × this"
             .into()
     } else {
@@ -197,6 +203,6 @@ fn inputs(document: &Document, source: &str, problem: &Problem) -> Vec<InputFile
     let base = |name: &str| name.rsplit(['/', '\\']).next().unwrap_or(name).to_owned();
     let file = |name: &str, text: &str| InputFile { name: base(name), sha256: sha256_hex(text.as_bytes()) };
     let model = file(&document.name, source);
-    let noise = problem.noise.file.as_ref().map(|(name, text)| file(name, text));
+    let noise = problem.noise().file().map(|(name, text)| file(name, text));
     std::iter::once(model).chain(noise).collect()
 }

@@ -3,8 +3,10 @@
 use super::manifest::Manifest;
 use super::staging::MANIFEST;
 use super::write::{NATIVE_MODEL, PROBLEM};
+use crate::Diagnostic;
 use crate::abstraction::{Abstraction, AbstractionError};
-use crate::model_file::{Diagnostic, Document, Problem};
+use crate::model_file::Document;
+use crate::problem::Problem;
 use imdp::formats::native::{self, NativeError};
 use imdp::formats::sha256_hex;
 use imdp::progress::Progress;
@@ -20,13 +22,14 @@ use std::path::{Path, PathBuf};
 /// use dynabs::abstraction::compile;
 /// use dynabs::run::{Manifest, Run, WriteOptions, write_run};
 /// use dynabs::imdp::solver::SolverOptions;
-/// use dynabs::model_file::{Document, Problem};
+/// use dynabs::model_file::Document;
+/// use dynabs::problem::Problem;
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/room_temperature.json");
 /// let source = std::fs::read_to_string(path)?;
 /// let document = Document::parse(path.as_ref(), &source)?;
-/// let problem = Problem::from_document(&document)?;
+/// let problem = document.problem()?;
 /// let abstraction = compile(&problem, &())?;
 /// let manifest = Manifest::new(&document, &source, &problem, &abstraction);
 /// let scratch = tempfile::tempdir()?;
@@ -124,8 +127,8 @@ impl Run {
         let path = directory.join(PROBLEM);
         let text = String::from_utf8_lossy(&verified(PROBLEM)?).into_owned();
         let document = Document::parse(&path, &text)?;
-        let problem = Problem::from_document(&document)?;
-        if let Some((name, text)) = &problem.noise.file {
+        let problem = document.problem()?;
+        if let Some((name, text)) = problem.noise().file() {
             // What was read, not what is there by now.
             verify(directory, name, text.as_bytes(), &manifest)?;
         }

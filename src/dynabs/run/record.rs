@@ -3,8 +3,9 @@
 use super::manifest::Manifest;
 use super::staging::MANIFEST;
 use super::write::PROBLEM;
+use crate::Diagnostic;
 use crate::abstraction::{AbstractionError, compile};
-use crate::model_file::{Diagnostic, Document, Problem};
+use crate::model_file::Document;
 use imdp::compare::{self, CompareError, Record, Sizes};
 use std::fs;
 use std::path::Path;
@@ -66,7 +67,7 @@ fn read_manifest(path: &Path, record: &mut Record) -> Result<(), CompareError> {
 
 /// Gets the model of a directory without one from the problem that it was made of.
 fn compile_again(path: &Path, record: &mut Record) -> Result<(), RecordError> {
-    let problem = Problem::from_document(&Document::parse(path, &read(path)?)?)?;
+    let problem = Document::parse(path, &read(path)?)?.problem()?;
     let refuse = |error| RecordError::Abstraction { path: path.display().to_string(), error };
     let abstraction = compile(&problem, &()).map_err(refuse)?;
     record.sizes = Some(Sizes::new(&abstraction.model));

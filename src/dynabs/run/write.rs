@@ -4,7 +4,8 @@ use super::manifest::Manifest;
 use super::row_states::RowStatesReport;
 use super::staging::{RunDirectoryError, Staging};
 use crate::abstraction::Abstraction;
-use crate::model_file::{Document, Problem};
+use crate::model_file::Document;
+use crate::problem::Problem;
 use imdp::formats::row_states::RowStates;
 use imdp::formats::umb::Compression;
 use imdp::formats::{Encoding, Format, ModelWriter, native};
@@ -77,9 +78,9 @@ pub fn write_run(
     staging.write(NATIVE_MODEL, |out| native::write(model, out))?;
     staging.write("model.props", |out| writeln!(out, "{}", abstraction.property))?;
     staging.write(PROBLEM, |out| out.write_all(self_contained(document, problem).as_bytes()))?;
-    staging.write(NOISE, |out| match &problem.noise.file {
+    staging.write(NOISE, |out| match problem.noise().file() {
         Some((_, text)) => out.write_all(text.as_bytes()),
-        None => out.write_all(problem.noise.samples.to_csv().as_bytes()),
+        None => out.write_all(problem.noise().samples.to_csv().as_bytes()),
     })?;
     manifest.outputs = staging.files().to_vec();
     staging.commit(&manifest)?;
@@ -89,7 +90,7 @@ pub fn write_run(
 /// The model file after `--set`, referring to the samples beside it.
 fn self_contained(document: &Document, problem: &Problem) -> String {
     let mut value = document.value.clone();
-    if problem.noise.file.is_some()
+    if problem.noise().file().is_some()
         && let Some(file) = value.pointer_mut("/noise/samples/file")
     {
         *file = NOISE.into();

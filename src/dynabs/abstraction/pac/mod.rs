@@ -78,7 +78,7 @@ use super::states::{FAILED, REACHED, StateSpace};
 use super::targets::Targets;
 use super::windows::WINDOWS;
 use crate::guarantee::SampleEvidence;
-use crate::model_file::Problem;
+use crate::problem::Problem;
 use bounds::{BoundTable, DIGITS, Interval};
 use ground::{Ground, cell_events, intervals};
 use imdp::model::{Rows, require_memory};
@@ -118,7 +118,7 @@ impl<'a> PacRows<'a> {
         states: &'a StateSpace,
         outcomes: &'a Outcomes,
     ) -> Result<Self, AbstractionError> {
-        let (grid, samples) = (&problem.grid, &problem.noise.samples);
+        let (grid, samples) = (problem.grid(), &problem.noise().samples);
         let levels = &prepared.levels;
         let inside_only = levels.lower_bounds() == LowerBounds::InsideWindows;
         let landings = Landings::in_windows(samples, placements, prepared.windows.clone(), inside_only);
@@ -188,7 +188,7 @@ impl<'a> PacRows<'a> {
     pub(super) fn evidence(&self) -> SampleEvidence {
         let prepared = &self.prepared;
         SampleEvidence {
-            number: self.problem.noise.samples.len() as u64,
+            number: self.problem.noise().samples.len() as u64,
             beta: prepared.beta,
             sweep: prepared.sweep,
             budget: prepared.budget.allocations().to_vec(),
@@ -220,7 +220,7 @@ impl<'a> PacRows<'a> {
     }
 
     fn push_row(&self, ground: &Ground<'_>, target: usize, window: usize, rows: &mut Rows) {
-        let grid = &self.problem.grid;
+        let grid = self.problem.grid();
         let Ground { landing, windows, origin, intervals } = ground;
         let (table, cells) = (landing.table(), &windows[window]);
         let (mut meets_goal, mut goal_lower) = (false, 0.0);
@@ -246,7 +246,7 @@ impl<'a> PacRows<'a> {
 
     /// Whether nothing in the window at `origin` is lost.
     fn is_clean(&self, window: &Spread, origin: &[i32]) -> bool {
-        let grid = &self.problem.grid;
+        let grid = self.problem.grid();
         let mut clean = is_inside(window, origin, grid);
         if clean {
             for_each_cell(window, window, origin, grid, |cell, _| {

@@ -7,7 +7,7 @@ use super::super::targets::Targets;
 use super::super::windows::{Stack, Windows, shape_samples};
 use super::bounds::{DIGITS, SampleSize};
 use super::levels::{Levels, LowerBounds, distances_in_cells};
-use crate::model_file::Problem;
+use crate::problem::Problem;
 use crate::statistics::{ConfidenceBudget, upper_bound};
 use imdp::numeric::{Rational, one_minus_down, round_decimal_up, to_f64};
 
@@ -40,12 +40,12 @@ impl Prepared {
         placements: &Placements<'_>,
         hazards: Option<&Hazards>,
     ) -> Result<Self, AbstractionError> {
-        let (grid, noise) = (&problem.grid, &problem.noise);
+        let (grid, noise) = (problem.grid(), problem.noise());
         let (lower, between, watched): (_, &[_], &[_]) = match hazards {
             None => (LowerBounds::OfNoise, &[], &[]),
             Some(hazards) => (LowerBounds::InsideWindows, &noise.between, hazards.watched()),
         };
-        let goal_distances = distances_in_cells(targets, &problem.goal, grid);
+        let goal_distances = distances_in_cells(targets, problem.goal(), grid);
         let origins = if placements.shared().is_some() { 1 } else { targets.len() };
         let mut budget = ConfidenceBudget::new(beta / Rational::from_integer(sweep.into()));
         let offsets = placements.offset_ranges(grid);

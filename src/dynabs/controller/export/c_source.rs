@@ -2,8 +2,8 @@
 
 use super::template::render;
 use crate::controller::Controller;
-use crate::model_file::Problem;
 use crate::partition::{CellId, CellKind};
+use crate::problem::Problem;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
@@ -40,7 +40,7 @@ pub fn c_source(controller: &Controller, problem: &Problem, file: &str) -> Resul
     let steps = controller.horizon().unwrap_or(0);
     let horizon = u32::try_from(steps).map_err(|_| CSourceError::HorizonTooLong { steps })?;
     let n = controller.state_dimension();
-    let prefix = identifier(&problem.name);
+    let prefix = identifier(problem.name());
     let policy = Tables::new(controller);
     let faces = controller.lookup.faces();
     let first_face = faces.iter().scan(0, |sum, faces| {
@@ -53,7 +53,7 @@ pub fn c_source(controller: &Controller, problem: &Problem, file: &str) -> Resul
         CellKind::Unsafe => 2,
     };
     let values = [
-        ("name", comment(&problem.name)),
+        ("name", comment(problem.name())),
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
         ("promise", promise(&controller.promise())),
         ("file", comment(file)),

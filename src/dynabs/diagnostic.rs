@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-/// A mistake in an input file.
+/// A mistake in what the user gave.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// The file, as the user named it.
+    /// The file, as the user named it; empty if it is about none.
     pub file: String,
     /// Where in the file: a JSON pointer such as `/dynamics/A/0`, or a line and column.
     pub place: String,
@@ -46,7 +46,9 @@ impl Diagnostic {
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: ", self.file)?;
+        if !self.file.is_empty() {
+            write!(f, "{}: ", self.file)?;
+        }
         if !self.place.is_empty() {
             write!(f, "{}: ", self.place)?;
         }

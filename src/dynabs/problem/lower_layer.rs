@@ -1,12 +1,44 @@
 //! The lower layer: an LQR gain or a given one.
 
-use super::values::{input_set, matrix, symmetric, vector};
-use super::{Diagnostic, LqrSpec, StabilizerSpec};
+use super::InputSet;
+use super::values::{matrix, symmetric, vector};
+use crate::Diagnostic;
 use crate::Warning;
 use crate::geometry::Polytope;
 use crate::linear_algebra::{Definiteness, ExactMatrix};
 use crate::partition::Grid;
 use crate::system::{LinearSystem, Lqr, TwoLayer, decimal_gain, lower_layer_violation};
+
+/// A lower layer `u = −K (x − x̄) + u′` on the grouped system (`d·p` inputs).
+#[derive(Clone, Debug, PartialEq)]
+pub struct LowerLayer {
+    /// `K`, or where it comes from.
+    pub gain: Gain,
+    /// `x̄`, the state to stabilise about; 0 if absent.
+    pub about: Option<Vec<f64>>,
+    /// `U′`, what is left to the abstraction; contains 0.
+    pub abstract_input: InputSet,
+}
+
+/// Where the gain of a lower layer comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Gain {
+    /// From the weights of a linear-quadratic regulator.
+    Lqr(LqrWeights),
+    /// It is this matrix, `(d·p)×n`.
+    Given(Vec<Vec<f64>>),
+}
+
+/// The weights of a linear-quadratic regulator for the grouped system.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LqrWeights {
+    /// `Q`, `n×n`, symmetric positive definite.
+    pub q: Vec<Vec<f64>>,
+    /// `R`, `(d·p)×(d·p)`, symmetric positive definite.
+    pub r: Vec<Vec<f64>>,
+    /// Rounds the gain to this many decimals, at most 300; not at all if absent.
+    pub decimals: Option<u32>,
+}
 
 /// A two-layer design and how its gain was found.
 #[derive(Clone, Debug)]
@@ -21,33 +53,29 @@ pub struct Stabilizer {
 
 /// Builds the lower layer for the grouped `system` with inputs `input`.
 pub(super) fn stabilizer(
-    spec: &StabilizerSpec,
+    layer: &LowerLayer,
     system: &LinearSystem,
     input: &Polytope,
     grid: &Grid,
 ) -> Result<Stabilizer, Diagnostic> {
     let (n, p) = (system.state_dimension(), system.input_dimension());
     let place = "/stabilizer/abstract_input";
-    let abstract_input = input_set(place, &spec.abstract_input, p)?;
+    let abstract_input = layer.abstract_input.polytope(place, p)?;
     if !abstract_input.contains_origin() {
         return Err(Diagnostic::at(place, "a set without 0", "a set U′ that contains 0")
             .remedy("Shift U′, or stabilise about another state with /stabilizer/about."));
     }
-    let (gain, riccati_residual) = match spec {
-        StabilizerSpec { lqr: Some(lqr), gain: None, .. } => {
-            let (gain, residual) = lqr_gain(lqr, system)?;
+    let (gain, riccati_residual) = match &layer.gain {
+        Gain::Lqr(weights) => {
+            let (gain, residual) = lqr_gain(weights, system)?;
             (gain, Some(residual))
         }
-        StabilizerSpec { lqr: None, gain: Some(gain), .. } => {
+        Gain::Given(gain) => {
             let what = "(d·p)×n for d grouped steps, p inputs and n states";
             (matrix("/stabilizer/gain", gain, Some(p), Some(n), what)?, None)
         }
-        StabilizerSpec { lqr, .. } => {
-            let found = if lqr.is_some() { "both lqr and gain" } else { "neither lqr nor gain" };
-            return Err(Diagnostic::at("/stabilizer", found, "exactly one of lqr and gain"));
-        }
     };
-    let about = match &spec.about {
+    let about = match &layer.about {
         None => ExactMatrix::zeros(n, 1),
         Some(about) => {
             let about = vector("/stabilizer/about", about, n, "one per dimension of the state")?;
@@ -67,7 +95,7 @@ pub(super) fn stabilizer(
     Ok(Stabilizer { layers, riccati_residual, warnings })
 }
 
-fn lqr_gain(spec: &LqrSpec, system: &LinearSystem) -> Result<(ExactMatrix, f64), Diagnostic> {
+fn lqr_gain(weights: &LqrWeights, system: &LinearSystem) -> Result<(ExactMatrix, f64), Diagnostic> {
     let (n, p) = (system.state_dimension(), system.input_dimension());
     let definite = |place: &str, values: &[Vec<f64>], size, what| {
         let weight = symmetric(place, values, size, what)?;
@@ -83,19 +111,19 @@ fn lqr_gain(spec: &LqrSpec, system: &LinearSystem) -> Result<(ExactMatrix, f64),
             }
         }
     };
-    let q = definite("/stabilizer/lqr/Q", &spec.q, n, "n×n for n states")?;
-    let r = definite("/stabilizer/lqr/R", &spec.r, p, "(d·p)×(d·p) for d grouped steps and p inputs")?;
+    let q = definite("/stabilizer/lqr/Q", &weights.q, n, "n×n for n states")?;
+    let r = definite("/stabilizer/lqr/R", &weights.r, p, "(d·p)×(d·p) for d grouped steps and p inputs")?;
     let failed = |found: String| {
         Diagnostic::at("/stabilizer/lqr", found, "weights for which the Riccati equation can be solved")
             .remedy("Bring the entries of Q and R closer together in size.")
     };
     let lqr = Lqr::solve(&system.a().to_f64(), &system.b().to_f64(), &q, &r)
         .map_err(|error| failed(error.to_string()))?;
-    if let Some(decimals) = spec.decimals.filter(|&decimals| decimals > 300) {
+    if let Some(decimals) = weights.decimals.filter(|&decimals| decimals > 300) {
         return Err(Diagnostic::at("/stabilizer/lqr/decimals", decimals.to_string(), "at most 300"));
     }
-    let gain =
-        decimal_gain(&lqr.gain, spec.decimals).ok_or_else(|| failed("a gain that is not finite".into()))?;
+    let gain = decimal_gain(&lqr.gain, weights.decimals)
+        .ok_or_else(|| failed("a gain that is not finite".into()))?;
     Ok((gain, lqr.residual))
 }
 

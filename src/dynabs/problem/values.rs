@@ -1,7 +1,6 @@
-//! Shapes and numbers: from lists in JSON to exact matrices and vectors.
+//! Shapes and numbers: from lists to exact matrices and vectors.
 
-use super::{Diagnostic, SetSpec};
-use crate::geometry::Polytope;
+use crate::Diagnostic;
 use crate::linear_algebra::ExactMatrix;
 use imdp::numeric::{Rational, from_decimal};
 
@@ -71,43 +70,4 @@ pub(super) fn symmetric(
             Err(Diagnostic::at(place, found, "a symmetric matrix"))
         }
     }
-}
-
-/// A non-empty box or polytope in `dimension` inputs.
-pub(super) fn input_set(place: &str, spec: &SetSpec, dimension: usize) -> Result<Polytope, Diagnostic> {
-    let what = "one per input";
-    let set = match spec {
-        SetSpec { lower: Some(lower), upper: Some(upper), normals: None, offsets: None } => {
-            let lower_exact = vector(&format!("{place}/lower"), lower, dimension, what)?;
-            let upper_exact = vector(&format!("{place}/upper"), upper, dimension, what)?;
-            if let Some(j) = (0..dimension).find(|&j| lower_exact[j] > upper_exact[j]) {
-                let found = format!("lower {} above upper {} for input {}", lower[j], upper[j], j + 1);
-                return Err(Diagnostic::at(place, found, "lower ≤ upper: this box is empty"));
-            }
-            Polytope::from_box(&lower_exact, &upper_exact)
-        }
-        SetSpec { lower: None, upper: None, normals: Some(normals), offsets: Some(offsets) } => {
-            let g = matrix(&format!("{place}/G"), normals, None, Some(dimension), what)?;
-            let offsets = vector(&format!("{place}/g"), offsets, g.rows(), "one per row of G")?;
-            Polytope::new(g, offsets)
-        }
-        _ => {
-            let fields = [
-                ("lower", spec.lower.is_some()),
-                ("upper", spec.upper.is_some()),
-                ("G", spec.normals.is_some()),
-                ("g", spec.offsets.is_some()),
-            ];
-            let given: Vec<_> = fields.iter().filter(|(_, given)| *given).map(|(name, _)| *name).collect();
-            let found =
-                if given.is_empty() { "neither".to_owned() } else { format!("only {}", given.join(", ")) };
-            return Err(Diagnostic::at(place, found, "a box {lower, upper} or a polytope {G, g}"));
-        }
-    };
-    if set.is_empty() {
-        let found = "half-spaces that have no point in common";
-        return Err(Diagnostic::at(place, found, "a set with at least one input")
-            .remedy("Check the signs: every row means G u ≤ g."));
-    }
-    Ok(set)
 }
