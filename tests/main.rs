@@ -25,6 +25,7 @@ mod predecessors;
 mod promises;
 mod prune;
 mod references;
+mod reliability;
 mod report;
 mod riccati;
 mod simulate;

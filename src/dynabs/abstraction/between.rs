@@ -29,7 +29,7 @@ struct Step {
     by_target: Vec<f64>,
     /// `S`, `n×n`.
     state: DMatrix<f64>,
-    /// From `T d + S c + r` to the lower and to the upper corner, for a cell with centre `c`.
+    /// From `T d + S c + r` to the lower and to the upper corner, for a cell with center `c`.
     lower: Vec<f64>,
     upper: Vec<f64>,
 }

@@ -63,7 +63,7 @@ pub fn departures(dimension: usize, values: &[f64]) -> Vec<Departure> {
     (0..dimension).filter_map(clearest).collect()
 }
 
-/// The centred scores of a column.
+/// The centerd scores of a column.
 fn scores(column: &[f64], of_size: bool) -> Vec<f64> {
     let step = column.len().div_ceil(SCALE_SAMPLES).max(1);
     let median_of = |values: &mut dyn Iterator<Item = f64>| {
@@ -84,7 +84,7 @@ fn scores(column: &[f64], of_size: bool) -> Vec<f64> {
     scores
 }
 
-/// All statistics of centred scores, each divided by its standard deviation for independent samples.
+/// All statistics of centerd scores, each divided by its standard deviation for independent samples.
 fn statistics(scores: &[f64]) -> Vec<(Trend, f64)> {
     let number = scores.len() as f64;
     let squares: f64 = scores.iter().map(|score| score * score).sum();

@@ -1,6 +1,6 @@
 //! Which cells a row lists: nested windows around the target, and how much noise may lie outside them.
 //!
-//! The boxes `{η : |η_j − c_j| ≤ t h_j for all j}` have one parameter `t`. Their centre `c` and proportions `h`
+//! The boxes `{η : |η_j − c_j| ≤ t h_j for all j}` have one parameter `t`. Their center `c` and proportions `h`
 //! are learned from a few samples, their size from all others, so that given the first ones the family
 //! is fixed. With the `j` farthest of `N` samples left out, `t` is the `(j+1)`-th largest distance, and
 //!
@@ -15,7 +15,7 @@
 //! last layer in one dimension does not make the others any longer.
 //!
 //! **Between the steps of a group.** Where something unsafe must be avoided at every original step, the noise is that of
-//! all partial sums `ξ_1 … ξ_d` together, with a centre and proportions for each of them, and the distance is the
+//! all partial sums `ξ_1 … ξ_d` together, with a center and proportions for each of them, and the distance is the
 //! largest. The number of events stays the same. For the lower bounds of a row the samples inside matter: given the
 //! edge of a window, the `(j+1)`-th farthest sample, they are independent with the law of the noise conditioned on being
 //! inside ([`pac`](super::pac)). Equal distances are told apart by independent uniform numbers, for that alone.
