@@ -67,20 +67,19 @@ impl<'a> Between<'a> {
             })
             .collect();
         let of_cell = |i: usize| &enabled.ranges[starts[i]..starts[i] + enabled.ranges_per_cell[i] as usize];
-        let tasks: Vec<usize> = (0..cells.len()).step_by(CELLS_PER_TASK).collect();
-        let parts: Vec<EnabledActions> = tasks
-            .into_par_iter()
-            .map(|first| {
+        let parts: Vec<EnabledActions> = cells
+            .par_chunks(CELLS_PER_TASK)
+            .enumerate()
+            .map(|(task, chunk)| {
                 let mut found = EnabledActions::default();
                 let mut probe = Probe::new(self);
-                let last = (first + CELLS_PER_TASK).min(cells.len());
-                for i in first..last {
+                for (i, &cell) in (task * CELLS_PER_TASK..).zip(chunk) {
                     let before = found.ranges.len();
-                    probe.start_in(cells[i]);
+                    probe.start_in(cell);
                     of_cell(i).iter().for_each(|range| probe.push_clear(range, &mut found.ranges));
                     found.ranges_per_cell.push((found.ranges.len() - before) as u32);
                 }
-                progress.advance((last - first) as u64);
+                progress.advance(chunk.len() as u64);
                 found
             })
             .collect();
@@ -169,8 +168,9 @@ impl<'a> Probe<'a> {
         let n = self.center.len();
         let steps = self.between.steps.iter().zip(&self.by_cell);
         for (step, by_cell) in steps {
-            for j in 0..n {
-                let middle = step.by_target[target as usize * n + j] + by_cell[j];
+            let by_target = &step.by_target[target as usize * n..(target as usize + 1) * n];
+            for (j, (by_target, by_cell)) in by_target.iter().zip(by_cell).enumerate() {
+                let middle = by_target + by_cell;
                 (self.lower[j], self.upper[j]) = (middle + step.lower[j], middle + step.upper[j]);
             }
             if self.between.hazards.are_met(&self.lower, &self.upper) {
