@@ -36,6 +36,13 @@ pub enum Warning {
         /// Its offset.
         offset: f64,
     },
+    /// Some inputs leave no room for the local feedback.
+    UnusedInputs {
+        /// How many.
+        unused: usize,
+        /// Of how many.
+        inputs: usize,
+    },
     /// Samples at the end of a file do not fill a group.
     LeftOverSamples {
         /// The file, or the place in the problem.
@@ -100,6 +107,10 @@ impl fmt::Display for Warning {
                 f,
                 "/stabilizer: −K(x − x̄) leaves U on the partition (a half-space with offset {offset} reaches \
                  {worst:.4}); cells where no action is left are reported as deadlocks"
+            ),
+            Self::UnusedInputs { unused, inputs } => write!(
+                f,
+                "/input: {unused} of {inputs} inputs leave no room for the feedback and are not used"
             ),
             Self::LeftOverSamples { source, left_over, samples, group_steps } => write!(
                 f,

@@ -13,6 +13,7 @@ mod enabled;
 mod enabling;
 mod error;
 mod hazards;
+pub mod inputs;
 mod landing;
 mod landings;
 mod outcomes;
