@@ -30,6 +30,7 @@ mod reliability;
 mod report;
 mod riccati;
 mod simulate;
+mod solution;
 mod solver;
 mod steering;
 mod values;
