@@ -2,6 +2,7 @@
 
 use dynabs::abstraction::inputs::InputAbstraction;
 use dynabs::controller::{Decision, InputController, InputSimulation, ParameterChoice};
+use dynabs::guarantee::Safety;
 use dynabs::model_file::{Document, StatedProblem};
 use dynabs::problem::InputProblem;
 use imdp::property::Resolution;
@@ -63,7 +64,7 @@ fn bounds_enclose_what_happens() {
         let controller = InputController::new(&problem, &abstraction, &solution);
         let simulation = InputSimulation::new(&problem, &controller, ParameterChoice::Random, 10);
         let tally = simulation.tally(&[3.0, -2.0], 1, 2000, &());
-        let seen = tally.satisfaction(1e-6);
+        let seen = tally.satisfaction(Safety::EveryStep, 1e-6);
         let cell = problem.initial_cell().unwrap().index();
         assert!(solution.values.lower[cell] > 0.1, "{}", solution.values.lower[cell]);
         assert!(
