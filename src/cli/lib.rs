@@ -17,7 +17,7 @@ mod summary;
 mod threads;
 mod trajectories;
 
-pub use choices::{EncodingName, FormatName};
+pub use choices::{AnyFormatName, EncodingName, FormatName, NamesChoice};
 pub use error::{CliError, exit_with};
 pub use output::{print, thousands};
 pub use progress::Bars;
