@@ -24,6 +24,7 @@ mod paper;
 mod predecessors;
 mod prune;
 mod references;
+mod reliability;
 mod report;
 mod riccati;
 mod simulate;

@@ -2,14 +2,14 @@
 
 use super::{Bars, CliError};
 use dynabs::guarantee::{Claim, Gap, Guarantee};
-use dynabs::run::{Manifest, NATIVE_MODEL};
+use dynabs::run::{Manifest, NATIVE_MODEL, RunFiles};
 use imdp::certificate::ModelFile;
+use imdp::files::{Snapshot, steady};
 use imdp::formats::Format;
 use imdp::formats::sha256_of_file;
 use imdp::model::IntervalMdp;
 use imdp::progress::Progress;
 use imdp::property::{Property, PropertyError};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A model and where it was found.
@@ -18,8 +18,12 @@ pub(super) struct LoadedModel {
     pub(super) warnings: Vec<String>,
     /// The file of properties that belongs to it, if there is one.
     pub(super) properties: PathBuf,
+    /// What the model's files ask besides, in PRISM's syntax.
+    pub(super) asks: String,
     /// The files it was read from.
     files: Vec<PathBuf>,
+    /// Which files these were, with that of the properties.
+    read: Snapshot,
     /// What was promised of the run that it is of.
     promise: Option<Promise>,
 }
@@ -32,6 +36,15 @@ struct Promise {
 }
 
 impl LoadedModel {
+    /// Fails if another process has replaced the files since: what is read now belongs to another model.
+    pub(super) fn require_unchanged(&self) -> Result<(), CliError> {
+        if snapshot(&self.files, &self.properties) == self.read {
+            return Ok(());
+        }
+        let path = self.files.first().map(|path| path.display().to_string()).unwrap_or_default();
+        Err(CliError::Failure(format!("{path}: found other files than at the start\n  Run it again.")))
+    }
+
     /// What bounds on the value of a property claim of the system; none for models that are of no run.
     ///
     /// # Errors
@@ -48,11 +61,17 @@ impl LoadedModel {
         self.promise.as_ref().map(claim).transpose()
     }
 
+    /// What the value of an expression claims of the system of a run: nothing.
+    pub(super) fn no_claim(&self) -> Option<Claim> {
+        self.promise.as_ref().map(|promise| promise.guarantee.no_claim(&[Gap::Expression]))
+    }
+
     /// What a certificate says about the files that the model was read from.
     ///
     /// # Errors
     /// [`CliError::Failure`] if they cannot be read again.
     pub(super) fn digests(&self) -> Result<Vec<ModelFile>, CliError> {
+        self.require_unchanged()?;
         let digest = |path: &PathBuf| {
             let kind = path.extension().unwrap_or_default().to_string_lossy().into_owned();
             match sha256_of_file(path) {
@@ -72,7 +91,7 @@ pub(super) fn load(path: &Path, explicit: bool, bars: &Bars) -> Result<LoadedMod
     const EXPECTED: &str = "a directory written by dynabs-compile or a .tra, .pexp, .drn, .umb, .txt (bmdp-tool), .nc (IntervalMDP.jl) or .dynabs file";
     let shown = path.display();
     if path.is_dir() {
-        return load_directory(path, explicit, bars);
+        return steady(&[path.to_owned()], || load_directory(path, explicit, bars));
     }
     let format = Format::of_path(path);
     if !path.exists() && format != Some(Format::Prism) {
@@ -106,10 +125,16 @@ fn export_command(path: &Path) -> String {
 }
 
 fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<LoadedModel, CliError> {
+    let found = RunFiles::find(directory)?;
+    // In a directory without a manifest there is nothing to hold its files against.
+    let verify = |names: &[&str]| {
+        let there = names.iter().filter(|name| directory.join(name).exists());
+        found.iter().try_for_each(|run| there.clone().try_for_each(|name| run.verified(name).map(drop)))
+    };
     let (native, tra) = (directory.join(NATIVE_MODEL), directory.join("model.tra"));
-    let manifest = fs::read(directory.join("manifest.json")).ok();
-    let manifest = manifest.and_then(|bytes| serde_json::from_slice::<Manifest>(&bytes).ok());
+    let manifest = found.as_ref().and_then(|run| run.manifest().ok());
     if native.exists() && !explicit {
+        verify(&[NATIVE_MODEL, "model.props"])?;
         let mut loaded = load_file(&native, Format::Native, bars)?;
         loaded.promise = promise(manifest.as_ref(), &loaded, false)?;
         return Ok(loaded);
@@ -122,6 +147,7 @@ fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<Loade
             directory.display()
         )));
     }
+    verify(&["model.tra", "model.sta", "model.lab", "model.props"])?;
     let mut loaded = load_file(&tra, Format::Prism, bars)?;
     let raised = |manifest: &&Manifest| {
         loaded.model.rows().iter().any(|row| row.lower.contains(&manifest.prism_lower_bound))
@@ -189,5 +215,11 @@ fn load_file(path: &Path, format: Format, bars: &Bars) -> Result<LoadedModel, Cl
     let packed = matches!(transitions.extension().and_then(|e| e.to_str()), Some("gz" | "xz"));
     let unpacked = if packed { transitions.with_extension("") } else { transitions.to_owned() };
     let properties = unpacked.with_extension("props");
-    Ok(LoadedModel { model: imported.model, warnings, properties, files, promise: None })
+    let read = snapshot(&files, &properties);
+    let asks = imported.properties;
+    Ok(LoadedModel { model: imported.model, warnings, properties, asks, files, read, promise: None })
+}
+
+fn snapshot(files: &[PathBuf], properties: &Path) -> Snapshot {
+    Snapshot::of(&[files, &[properties.to_owned()]].concat())
 }

@@ -1,8 +1,9 @@
 //! `dynabs-check convert`: from one format to another.
 
 use crate::model_source::load;
-use crate::{AnyFormatName, Bars, CliError, EncodingName, NamesChoice, StagedFiles, print, thousands};
+use crate::{AnyFormatName, Bars, CliError, EncodingName, NamesChoice, print, thousands, warn};
 use clap::Args;
+use imdp::files::{self, Outputs};
 use imdp::formats::prism::RAISED_LOWER_BOUND;
 use imdp::formats::row_states::{EncodingError, RowStates};
 use imdp::formats::umb::Compression;
@@ -10,7 +11,6 @@ use imdp::formats::{Format, ModelWriter, WriteError, identifiers, netcdf};
 use imdp::model::IntervalMdp;
 use imdp::progress::Progress;
 use imdp::property::{Definitions, Entry, Inquiry, QueryKind, parse_document};
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -79,10 +79,19 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
             output.display()
         )));
     };
-    refuse_existing(arguments, format)?;
+    let has_place = Outputs::is_file(output).map_err(|error| CliError::writing(output, &error))?;
+    if has_place {
+        refuse_existing(arguments, format)?;
+    } else if format == Format::Prism {
+        return Err(CliError::Input(format!(
+            "{}: found a device or a pipe; expected a regular file: this format has several files",
+            output.display()
+        )));
+    }
     let bars = Arc::new(Bars::new(arguments.quiet));
     let loaded = load(&arguments.input, arguments.explicit, &bars)?;
     let properties = Properties::read(&loaded.properties)?;
+    loaded.require_unchanged()?;
     let mut warnings = loaded.warnings;
     let mut model = loaded.model;
     let rewards: Vec<_> = model.rewards().iter().map(|structure| structure.name.clone()).collect();
@@ -116,29 +125,37 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
     if format == Format::Prism && model.rows().iter().any(|row| row.lower.contains(&0.0)) {
         warnings.push(format!("lower bounds of 0 are written as {RAISED_LOWER_BOUND:e}: PRISM refuses 0"));
     }
-    bars.catch_interrupts()?;
-    let mut files = StagedFiles::default();
+    bars.catch_interrupts();
+    let mut files = Outputs::default();
     let compression = if arguments.uncompressed { Compression::None } else { Compression::Gzip };
     let writer = ModelWriter::new(&model, format, compression)?;
     for (i, extension) in writer.extensions().iter().enumerate() {
         // The first file has the name that was asked for, whatever its extension.
         let path = if i == 0 { output.clone() } else { output.with_extension(extension) };
         bars.start("writing", if i == 0 { writer.bytes() } else { 0 });
-        files.write(&path, |out| writer.write(extension, out, &*bars))?;
+        let written = files.write(&path, |out| writer.write(extension, out, &*bars));
+        written.map_err(|error| CliError::writing(&path, &error))?;
         bars.finish();
     }
-    if let Some(specification) = specification {
-        let text = format!("{specification:#}\n");
-        files.write(&output.with_extension("json"), |out| out.write_all(text.as_bytes()))?;
+    let mut write_text = |extension: &str, text: &str| {
+        let path = output.with_extension(extension);
+        let written = files.write(&path, |out| out.write_all(text.as_bytes()));
+        written.map_err(|error| CliError::writing(&path, &error))
+    };
+    if let Some(specification) = specification.filter(|_| has_place) {
+        write_text("json", &format!("{specification:#}\n"))?;
     }
-    if !text.is_empty() && !keeps_properties(arguments) {
-        files.write(&output.with_extension("props"), |out| out.write_all(text.as_bytes()))?;
+    if has_place && !text.is_empty() && !keeps_properties(arguments) {
+        write_text("props", &text)?;
     }
-    files.commit()?;
+    let committed = if arguments.force { files.commit() } else { files.commit_new() };
+    committed.map_err(|error| match error.kind() {
+        io::ErrorKind::AlreadyExists => taken(output),
+        _ => CliError::writing(output, &error),
+    })?;
     if !arguments.quiet {
         let text: String = warnings.iter().map(|warning| format!("warning: {warning}\n")).collect();
-        // If stderr is closed there is nobody to warn.
-        let _ = io::stderr().write_all(text.as_bytes());
+        warn(&text);
         let size = model.size();
         print(&format!(
             "{}: {} states, {} choices, {} transitions\n",
@@ -164,12 +181,16 @@ fn refuse_existing(arguments: &ConvertArguments, format: Format) -> Result<(), C
         written.push(output.with_extension("props"));
     }
     match written.into_iter().find(|path| path.exists()).filter(|_| !arguments.force) {
-        Some(path) => Err(CliError::Input(format!(
-            "{}: found a file; expected a new name\n  Replace what is there with --force.",
-            path.display()
-        ))),
+        Some(path) => Err(taken(&path)),
         None => Ok(()),
     }
+}
+
+fn taken(path: &Path) -> CliError {
+    let path = path.display();
+    CliError::Input(format!(
+        "{path}: found a file; expected a new name\n  Replace what is there with --force."
+    ))
 }
 
 /// Whether the properties stay where they are, beside another file of the same model.
@@ -188,12 +209,15 @@ struct Properties {
 
 impl Properties {
     fn read(path: &Path) -> Result<Self, CliError> {
-        let source = match fs::read_to_string(path) {
+        let source = match files::read_text(path) {
             Ok(source) => source,
             Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
-            Err(error) => return Err(CliError::Failure(format!("{}: {error}", path.display()))),
+            Err(error) => return Err(CliError::reading(path, &error)),
         };
         let entries = parse_document(&source, &mut Definitions::default());
+        if let Some(error) = entries.iter().find_map(|entry| entry.inquiry.as_ref().err()) {
+            return Err(CliError::Input(format!("{}: {error}", path.display())));
+        }
         let texts: Option<Vec<String>> = entries
             .iter()
             .map(|entry| match &entry.inquiry {

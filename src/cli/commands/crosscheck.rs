@@ -1,18 +1,20 @@
 //! `dynabs-check crosscheck`: the same question to other people's solvers.
 
-use super::solve::{LimitArguments, properties};
+use super::solve::LimitArguments;
 use crate::crosscheck_table::table;
-use crate::model_source::load;
-use crate::{Bars, CliError, print};
+use crate::model_source::{LoadedModel, load};
+use crate::questions::QuestionArguments;
+use crate::{Bars, CliError, print, warn};
 use clap::{Args, ValueEnum};
 use dynabs::run::NATIVE_MODEL;
 use imdp::engines::{
     Agreement, CrossCheckOptions, Engine, EngineMissing, Finding, Prism, RunLimits, Storm, Subject,
     cross_check, raised,
 };
+use imdp::evaluation::direct;
 use imdp::model::available_memory;
+use imdp::property::{Inquiry, Property};
 use serde_json::json;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -29,9 +31,8 @@ pub struct CrosscheckArguments {
     #[arg(long, value_enum, default_value_t = With::All)]
     with: With,
 
-    /// A property in PRISM's syntax, or a .props file; repeatable. Default: the .props file of the model.
-    #[arg(short, long = "property", value_name = "PROPERTY")]
-    properties: Vec<String>,
+    #[command(flatten)]
+    questions: QuestionArguments,
 
     /// PRISM's program. Default: $PRISM, or prism in PATH.
     #[arg(long, value_name = "PATH")]
@@ -42,7 +43,7 @@ pub struct CrosscheckArguments {
     python: Option<PathBuf>,
 
     /// End an engine that takes longer than this many seconds for one property.
-    #[arg(long, value_name = "SECONDS", default_value_t = 600.0, value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 600.0, value_parser = super::solve::seconds)]
     timeout: f64,
 
     /// The memory an engine may use, such as 512m or 8g. Default: three quarters of what is available.
@@ -82,11 +83,6 @@ Examples:
   dynabs-check crosscheck out --with all
   dynabs-check crosscheck out --with prism --prism ~/prism/bin/prism --memory 8g -p 'Pmaxmin=? [ F \"reached\" ]'";
 
-fn seconds(text: &str) -> Result<f64, String> {
-    let number = super::solve::positive(text)?;
-    Duration::try_from_secs_f64(number).map(|_| number).map_err(|error| error.to_string())
-}
-
 fn mebibytes(text: &str) -> Result<u64, String> {
     let (digits, factor) = match text.to_ascii_lowercase() {
         lower if lower.ends_with('g') => (lower[..lower.len() - 1].to_owned(), 1024),
@@ -104,7 +100,8 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     let Engines { found, missing } = find_engines(arguments)?;
     let bars = Arc::new(Bars::new(arguments.quiet));
     let loaded = load(&arguments.path, false, &bars)?;
-    let properties = properties(&arguments.properties, &loaded.properties)?;
+    let properties = properties(&arguments.questions, &loaded)?;
+    let digests = loaded.digests()?;
     let failure = |error| CliError::Failure(format!("{}: {error}", arguments.path.display()));
     let raised = raised(&loaded.model).map_err(failure)?;
     let files = explicit_files(&arguments.path, raised.is_some());
@@ -112,7 +109,7 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     say(arguments, &loaded.warnings, "warning: ");
     say(arguments, &missing.iter().map(ToString::to_string).collect::<Vec<_>>(), "missing: ");
 
-    bars.catch_interrupts()?;
+    bars.catch_interrupts();
     let memory_mib = arguments
         .memory
         .unwrap_or_else(|| available_memory().map_or(4096, |(bytes, _)| (bytes >> 20) / 4 * 3));
@@ -128,7 +125,8 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     if arguments.json {
         let object = json!({
             "version": env!("CARGO_PKG_VERSION"),
-            "path": arguments.path,
+            "path": arguments.path.display().to_string(),
+            "model": digests.iter().map(|file| json!({"kind": file.kind, "sha256": file.sha256})).collect::<Vec<_>>(),
             "agree": missing.is_empty() && agree(&findings),
             "findings": findings,
             "missing": missing.iter().map(|missing| missing.engine).collect::<Vec<_>>(),
@@ -140,11 +138,31 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     Ok(exit_code(&findings, !missing.is_empty()))
 }
 
+/// The properties that engines can be asked: those of a single probability. Others are passed over with a word.
+fn properties(questions: &QuestionArguments, loaded: &LoadedModel) -> Result<Vec<Property>, CliError> {
+    let asked = questions.read(loaded)?;
+    let (mut properties, mut problems) = (vec![], vec![]);
+    for question in &asked {
+        match (&question.entry.inquiry, question.problem()) {
+            (Ok(Inquiry::Probability(property)), _) => {
+                properties.push(direct(property.clone(), &loaded.model, questions.nature()));
+            }
+            (Ok(Inquiry::Compound(compound)), _) => problems.push(format!(
+                "{compound}: found more than one probability of F, G, U or X, which engines are not asked"
+            )),
+            (Err(_), problem) => problems.extend(problem),
+        }
+    }
+    if properties.is_empty() {
+        return Err(CliError::Input(problems.join("\nerror: ")));
+    }
+    problems.iter().for_each(|problem| warn(&format!("error: {problem}\n")));
+    Ok(properties)
+}
+
 fn say(arguments: &CrosscheckArguments, lines: &[String], head: &str) {
     if !arguments.quiet {
-        let text: String = lines.iter().map(|line| format!("{head}{line}\n")).collect();
-        // If stderr is closed there is nobody to warn.
-        let _ = io::stderr().write_all(text.as_bytes());
+        lines.iter().for_each(|line| warn(&format!("{head}{line}\n")));
     }
 }
 

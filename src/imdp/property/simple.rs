@@ -128,8 +128,11 @@ pub(crate) fn formula(node: &Node) -> Option<StateFormula> {
 fn compare(comparison: Comparison, left: &Node, right: &Node) -> Option<StateFormula> {
     let is_equality = matches!(comparison, Comparison::Equal | Comparison::NotEqual);
     if is_equality && (is_formula(left) || is_formula(right)) {
-        let iff = StateFormula::Iff(Box::new(formula(left)?), Box::new(formula(right)?));
-        return Some(if comparison == Comparison::Equal { iff } else { StateFormula::negation(iff) });
+        let (left, right) = (Box::new(formula(left)?), Box::new(formula(right)?));
+        return Some(match comparison {
+            Comparison::Equal => StateFormula::Iff(left, right),
+            _ => StateFormula::Differ(left, right),
+        });
     }
     Some(StateFormula::Compare(integer(left)?, comparison, integer(right)?))
 }

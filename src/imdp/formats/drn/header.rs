@@ -2,6 +2,7 @@
 
 use crate::formats::import::{Cursor, Fault, ImportError, Lines};
 use crate::model::{ModelKind, StateId};
+use std::collections::HashSet;
 use std::io::BufRead;
 
 /// What the header says.
@@ -18,8 +19,11 @@ pub(super) struct Header {
     pub variables: Vec<String>,
 }
 
-/// Reads up to the line `@model`.
-pub(super) fn read_header<R: BufRead>(lines: &mut Lines<'_, R>) -> Result<Header, ImportError> {
+/// The shortest line of a state with its line end, `state 0`.
+const SHORTEST_STATE: u64 = 8;
+
+/// Reads up to the line `@model` of a file of so many bytes.
+pub(super) fn read_header<R: BufRead>(lines: &mut Lines<'_, R>, bytes: u64) -> Result<Header, ImportError> {
     let (mut kind, mut states, mut choices) = (None, None, None);
     let (mut labels, mut variables, mut rewards) = (vec![], vec![], None);
     while let Some(mut cursor) = lines.next_or_blank()? {
@@ -36,6 +40,12 @@ pub(super) fn read_header<R: BufRead>(lines: &mut Lines<'_, R>) -> Result<Header
             }
             Entry::Section(name @ "@nr_states") => {
                 let count = read_count(lines, 1..=u64::from(StateId::MAX))?;
+                // A header that lies must not decide how much is allocated.
+                let fits = bytes / SHORTEST_STATE;
+                if count > fits {
+                    let expected = format!("at most {fits} states in a file of {bytes} bytes");
+                    return Err(lines.refuse(1, expected, count.to_string()));
+                }
                 once(lines, name, &mut states, count)?;
             }
             Entry::Section(name) => {
@@ -73,7 +83,7 @@ fn read_entry(cursor: &mut Cursor<'_>) -> Result<Entry, Box<Fault>> {
     if cursor.skip(b"//! variables ") {
         let start = cursor.offset();
         let names = names(cursor)?;
-        if (1..names.len()).any(|i| names[..i].contains(&names[i])) {
+        if has_twice(&names) {
             return Err(cursor.fault_at(start, "every variable once"));
         }
         return Ok(Entry::Variables(names));
@@ -113,6 +123,11 @@ fn read_entry(cursor: &mut Cursor<'_>) -> Result<Entry, Box<Fault>> {
     }
     Err(cursor
         .fault_here("@type, @value_type, @parameters, @reward_models, @nr_states, @nr_choices or @model"))
+}
+
+fn has_twice(names: &[String]) -> bool {
+    let mut seen = HashSet::new();
+    !names.iter().all(|name| seen.insert(name))
 }
 
 /// Passes over blanks at the end of a line.
@@ -155,11 +170,10 @@ pub(super) fn read_name(cursor: &mut Cursor<'_>) -> Result<String, Box<Fault>> {
 fn read_reward_names<R: BufRead>(lines: &mut Lines<'_, R>) -> Result<Vec<String>, ImportError> {
     let Some(mut cursor) = lines.next_or_blank()? else { return Ok(vec![]) };
     let start = cursor.offset();
-    let names =
-        names(&mut cursor).and_then(|names| match (1..names.len()).any(|i| names[..i].contains(&names[i])) {
-            true => Err(cursor.fault_at(start, "every reward model once")),
-            false => Ok(names),
-        });
+    let names = names(&mut cursor).and_then(|names| match has_twice(&names) {
+        true => Err(cursor.fault_at(start, "every reward model once")),
+        false => Ok(names),
+    });
     names.map_err(|fault| lines.place(*fault))
 }
 

@@ -7,7 +7,7 @@ use crate::formats::import::{
     Assembly, AssemblyError, Cursor, Expected, Fault, ImportError, Imported, Judgement, Lines, PendingRow,
     Position, RowFault, Source, Warning, describe, hash_row, open, read_any_interval, written_bounds,
 };
-use crate::model::{ActionNames, ModelKind, Rows, StateId};
+use crate::model::{ActionNames, MemoryError, ModelKind, Rows, StateId};
 use std::io::BufRead;
 use std::path::Path;
 
@@ -36,7 +36,7 @@ pub fn import(path: &Path) -> Result<Imported, ImportError> {
 pub fn import_with_progress(path: &Path, progress: &mut dyn FnMut(u64)) -> Result<Imported, ImportError> {
     let Source { reader, length } = open(path)?;
     let mut lines = Lines::new(path, reader);
-    let header = read_header(&mut lines)?;
+    let header = read_header(&mut lines, length)?;
     // A header that lies must not decide how much is allocated.
     let fits = length / SHORTEST_LINE;
     let expected =
@@ -44,7 +44,7 @@ pub fn import_with_progress(path: &Path, progress: &mut dyn FnMut(u64)) -> Resul
     let mut body = Body {
         path,
         assembly: Assembly::new(expected)?,
-        notes: StateNotes::new(&header, fits),
+        notes: StateNotes::new(&header, fits)?,
         header,
         row: PendingRow::default(),
         rows: Rows::new(),
@@ -142,7 +142,7 @@ impl Body<'_> {
         }
         let state = next as StateId;
         self.state = Some(state);
-        Ok(read_labels(cursor, state, &mut self.notes)?)
+        read_labels(cursor, state, &mut self.notes)
     }
 
     fn begin_choice(&mut self, cursor: &mut Cursor<'_>) -> Result<(), LineError> {
@@ -285,9 +285,15 @@ impl Body<'_> {
 }
 
 /// What ends the reading of a line.
-enum LineError {
+pub(super) enum LineError {
     Fault(Box<Fault>),
     Import(ImportError),
+}
+
+impl From<MemoryError> for LineError {
+    fn from(error: MemoryError) -> Self {
+        Self::Import(error.into())
+    }
 }
 
 impl From<Box<Fault>> for LineError {

@@ -1,10 +1,11 @@
 //! What is said of a state besides its choices.
 
 use super::header::{Header, end_of_line, read_name};
+use super::read::LineError;
 use super::rewards::RewardNotes;
 use super::valuations::Valuations;
 use crate::formats::import::{Cursor, Fault, read_variable_value};
-use crate::model::{Labels, StateId, StateSet, StateVariables, VariableValues};
+use crate::model::{Labels, MemoryError, StateId, StateSet, StateVariables, VariableValues, require_memory};
 use std::collections::HashMap;
 
 /// Labels, values of variables and deadlocks of the states so far.
@@ -31,7 +32,10 @@ pub(super) struct StateNotes {
 
 impl StateNotes {
     /// Nothing but what the header declares; sets have room for no more states than `fit` in the file.
-    pub(super) fn new(header: &Header, fit: u64) -> Self {
+    ///
+    /// # Errors
+    /// [`MemoryError`] if so many labels do not fit.
+    pub(super) fn new(header: &Header, fit: u64) -> Result<Self, MemoryError> {
         let mut notes = Self {
             states: header.states as usize,
             room: header.states.min(fit) as usize,
@@ -47,21 +51,25 @@ impl StateNotes {
             valuations: Valuations::default(),
         };
         for name in &header.labels {
-            notes.label(name.clone());
+            notes.label(name.clone())?;
         }
-        notes
+        Ok(notes)
     }
 
-    fn label(&mut self, name: String) -> &mut StateSet {
+    fn label(&mut self, name: String) -> Result<&mut StateSet, MemoryError> {
         if name == "init" {
-            return &mut self.initial;
+            return Ok(&mut self.initial);
         }
         let next = self.labels.len();
         let id = *self.ids.entry(name.clone()).or_insert(next);
         if id == next {
+            if next.is_power_of_two() {
+                let bytes = (self.states as u64).div_ceil(8).saturating_mul(2 * next as u64);
+                require_memory(format!("{} labels", 2 * next), bytes)?;
+            }
             self.labels.push((name, StateSet::new()));
         }
-        &mut self.labels[id].1
+        Ok(&mut self.labels[id].1)
     }
 
     /// Reads a comment that says something of `state`.
@@ -133,15 +141,15 @@ pub(super) fn read_labels(
     cursor: &mut Cursor<'_>,
     state: StateId,
     notes: &mut StateNotes,
-) -> Result<(), Box<Fault>> {
+) -> Result<(), LineError> {
     let mut first = true;
     loop {
         let blanks = cursor.skip_blanks();
         if cursor.at_line_end() || cursor.at_end() {
-            return end_of_line(cursor, "the end of the line");
+            return Ok(end_of_line(cursor, "the end of the line")?);
         }
         if !blanks {
-            return Err(cursor.fault_here("a blank and a label"));
+            return Err(cursor.fault_here("a blank and a label").into());
         }
         match cursor.peek() {
             b'[' if first => {
@@ -149,14 +157,16 @@ pub(super) fn read_labels(
                 first = false;
                 continue;
             }
-            b'!' | b'{' => return Err(cursor.fault_here("a label: rates and observations are not supported")),
+            b'!' | b'{' => {
+                return Err(cursor.fault_here("a label: rates and observations are not supported").into());
+            }
             _ => first = false,
         }
         let start = cursor.offset();
-        let set = notes.label(read_name(cursor)?);
+        let set = notes.label(read_name(cursor)?)?;
         set.grow(state as usize + 1);
         if set.put(state as usize) {
-            return Err(cursor.fault_at(start, "every label of a state once"));
+            return Err(cursor.fault_at(start, "every label of a state once").into());
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Values of variables as Storm writes them in a comment behind a state: `//[x=1	& !b]`.
+//! Values of variables as Storm writes them in a comment behind a state: `//[x=1 & !b]`.
 
 use crate::formats::names::is_identifier;
 use crate::model::{StateSet, StateVariables, VariableValues};

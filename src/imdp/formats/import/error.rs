@@ -3,6 +3,7 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use crate::files::is_fault_of_input;
 use crate::formats::native::NativeError;
 use crate::model::{ImdpError, MemoryError, RewardError, StateId};
 
@@ -126,7 +127,12 @@ pub enum ImportError {
 impl ImportError {
     /// Whether the system failed, and not the file.
     pub fn is_io(&self) -> bool {
-        matches!(self, Self::Io { .. } | Self::Native { error: NativeError::Io(_), .. })
+        match self {
+            Self::Io { source, .. } | Self::Native { error: NativeError::Io(source), .. } => {
+                !is_fault_of_input(source)
+            }
+            _ => false,
+        }
     }
 
     /// Wraps an error of the system about a file.

@@ -1,6 +1,7 @@
 //! Opening a file that may be compressed.
 
 use super::error::ImportError;
+use crate::files;
 use flate2::read::MultiGzDecoder;
 use lzma_rust2::XzReader;
 use std::fs::File;
@@ -63,16 +64,12 @@ impl Packing {
 /// [`ImportError`] if it is no regular file, or is damaged.
 pub(in crate::formats) fn open(path: &Path) -> Result<Source, ImportError> {
     let failed = |error| ImportError::io(path, error);
-    let mut file = File::open(path).map_err(failed)?;
-    let metadata = file.metadata().map_err(failed)?;
-    if !metadata.is_file() {
-        return Err(failed(io::Error::other("it is not a regular file")));
-    }
+    let (mut file, size) = files::open(path).map_err(failed)?;
     let packing = Packing::of(&mut file).map_err(failed)?;
     let length = match packing {
-        Packing::None => metadata.len(),
+        Packing::None => size,
         _ => {
-            let again = File::open(path).map_err(failed)?;
+            let (again, _) = files::open(path).map_err(failed)?;
             io::copy(&mut packing.unpack(again), &mut io::sink())
                 .map_err(|error| ImportError::Damaged { path: path.to_owned(), problem: error.to_string() })?
         }

@@ -21,7 +21,7 @@ pub fn import(path: &Path) -> Result<Imported, ImportError> {
     let metadata = std::fs::metadata(path).map_err(|error| ImportError::io(path, error))?;
     // The file is in memory as a whole, and its content besides.
     require_memory("the file and its content", metadata.len().saturating_mul(8))?;
-    let content = std::fs::read(path).map_err(|error| ImportError::io(path, error))?;
+    let content = crate::files::read(path).map_err(|error| ImportError::io(path, error))?;
     let reader = Reader {
         path,
         file: File::from_bytes(content).map_err(|error| {

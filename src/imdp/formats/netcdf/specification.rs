@@ -69,7 +69,7 @@ pub(super) struct Specification {
 impl Specification {
     /// Reads the specification of a model with so many states; nothing if there is no such file.
     pub(super) fn read(path: &Path, states: u64) -> Result<Self, ImportError> {
-        let text = match std::fs::read(path) {
+        let text = match crate::files::read(path) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::default()),
             Err(error) => return Err(ImportError::io(path, error)),

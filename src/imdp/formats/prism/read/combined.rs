@@ -42,7 +42,8 @@ pub fn import_combined(path: &Path, progress: &mut (dyn FnMut(u64) + Send)) -> R
         lines.next_or_blank()?;
         return Err(lines.refuse(1, "a section `# Transitions`", "none"));
     };
-    let (header, transitions) = read_loosely(path, &mut transitions.lines(path))?;
+    let (header, transitions) =
+        read_loosely(path, &mut transitions.lines(path), transitions.text.len() as u64 + (1 << 16))?;
     let mut parts = StateFiles::default();
     if let Some(section) = of_kind(Kind::States).next() {
         parts.read_variables(path, &mut section.lines(path), header.states)?;

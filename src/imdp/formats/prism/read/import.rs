@@ -8,6 +8,7 @@ use super::labels::read_lab;
 use super::rewards::{read_srew, read_trew};
 use super::states::read_sta;
 use super::transitions::read_tra;
+use crate::files::{settle, steady};
 use crate::formats::import::{ImportError, Imported, Lines, Transitions, Warning, open};
 use crate::model::{Labels, ModelKind, RewardStructure, StateSet, StateVariables};
 
@@ -55,6 +56,16 @@ pub fn import_files(
     files: &ExplicitFiles,
     progress: &mut (dyn FnMut(u64) + Send),
 ) -> Result<Imported, ImportError> {
+    let directory =
+        files.tra.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    // Files of one writer: what a killed one had decided to write is finished, what is replaced meanwhile is read again.
+    steady(&files.all(), || {
+        settle(directory).map_err(|error| ImportError::io(directory, error))?;
+        read(files, progress)
+    })
+}
+
+fn read(files: &ExplicitFiles, progress: &mut (dyn FnMut(u64) + Send)) -> Result<Imported, ImportError> {
     // A missing file should not be noticed only after minutes of reading.
     for file in files.all() {
         std::fs::metadata(&file).map_err(|error| ImportError::io(&file, error))?;

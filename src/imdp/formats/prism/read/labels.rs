@@ -1,5 +1,6 @@
 //! Labels: `0="init" 1="deadlock" 2="goal"`, then `3: 0 2` for every state with a label.
 
+use std::collections::HashSet;
 use std::io::BufRead;
 
 use crate::formats::import::{Cursor, Fault, ImportError, Lines};
@@ -55,6 +56,7 @@ pub(super) fn is_content(cursor: &mut Cursor<'_>) -> bool {
 
 fn read_names(cursor: &mut Cursor<'_>) -> Result<Vec<String>, Box<Fault>> {
     let mut names: Vec<String> = vec![];
+    let mut seen = HashSet::new();
     while !cursor.at_line_end() && !cursor.at_end() {
         let start = cursor.offset();
         if cursor.unsigned("the number of a label, `0=\"init\"`")? != names.len() as u64 {
@@ -68,7 +70,7 @@ fn read_names(cursor: &mut Cursor<'_>) -> Result<Vec<String>, Box<Fault>> {
         }
         let name = std::str::from_utf8(cursor.since(start)).ok().filter(|name| !name.is_empty());
         let name = name.ok_or_else(|| cursor.fault_at(start, "a name in UTF-8"))?;
-        if names.iter().any(|earlier| earlier == name) {
+        if !seen.insert(name) {
             return Err(cursor.fault_at(start, "every label once"));
         }
         names.push(name.to_owned());

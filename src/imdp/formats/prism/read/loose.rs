@@ -10,10 +10,11 @@ use crate::model::{ModelKind, StateId};
 use std::io::BufRead;
 use std::path::Path;
 
-/// Reads the transitions of `lines`, which are at the start of the file.
+/// Reads the transitions of `lines`, which are at the start of the file; more states than given are not believed.
 pub(super) fn read_loosely<R: BufRead>(
     path: &Path,
     lines: &mut Lines<'_, R>,
+    most_states: u64,
 ) -> Result<(TransitionHeader, Transitions), ImportError> {
     let header = loop {
         let Some(cursor) = lines.next_or_blank()? else {
@@ -22,6 +23,10 @@ pub(super) fn read_loosely<R: BufRead>(
         let Some(mut fields) = Fields::cut(&cursor, b"#") else { continue };
         break read_header(&mut fields).map_err(|fault| lines.place(*fault))?;
     };
+    if header.states > most_states {
+        let expected = format!("at most {most_states} states in so short a file");
+        return Err(lines.refuse(1, expected, header.states.to_string()));
+    }
     let mut transitions = LooseTransitions::default();
     while let Some(cursor) = lines.next_or_blank()? {
         let Some(mut fields) = Fields::cut(&cursor, b"#") else { continue };

@@ -1,5 +1,6 @@
 //! States: `(v1,v2)`, then `0:(3,true)` for every state.
 
+use std::collections::HashSet;
 use std::io::BufRead;
 
 use super::labels::is_content;
@@ -49,12 +50,13 @@ pub(super) fn read_sta<R: BufRead>(
 
 fn read_names(cursor: &mut Cursor<'_>) -> Result<Vec<String>, Box<Fault>> {
     let mut names: Vec<String> = vec![];
+    let mut seen = HashSet::new();
     cursor.expect(b'(', "`(` and the names of the variables")?;
     cursor.skip_blanks();
     while names.is_empty() || !cursor.skip(b")") {
         let start = cursor.offset();
         let name = cursor.identifier("the name of a variable")?;
-        if names.iter().any(|earlier| earlier == name) {
+        if !seen.insert(name) {
             return Err(cursor.fault_at(start, "every variable once"));
         }
         names.push(name.to_owned());

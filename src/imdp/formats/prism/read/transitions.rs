@@ -23,6 +23,9 @@ const MOST_IN_FLIGHT: usize = 64;
 /// The shortest transition with its line end, `0 0 1`.
 const SHORTEST_LINE: u64 = 6;
 
+/// States without transitions need no bytes; so many are believed, and one more for every byte.
+const FEW_STATES: u64 = 1 << 16;
+
 /// Reads a `.tra` file; `progress` is told how many bytes have been read.
 ///
 /// What is not laid out as PRISM does it is read again, without minding the layout.
@@ -35,7 +38,8 @@ pub(super) fn read_tra(
         outcome => return outcome,
     };
     let (at, expected, found) = strict;
-    match read_loosely(path, &mut Lines::new(path, open(path)?.reader)) {
+    let Source { reader, length } = open(path)?;
+    match read_loosely(path, &mut Lines::new(path, reader), length.saturating_add(FEW_STATES)) {
         Ok((header, mut transitions)) => {
             transitions.warnings.push(Warning::Layout { first: at });
             Ok((header, transitions))
@@ -61,6 +65,11 @@ fn read_strictly(
     if header.transitions > fits {
         let expected = format!("at most {fits} transitions in a file of {length} bytes");
         return Err(lines.refuse(1, expected, header.transitions.to_string()));
+    }
+    let fits = length.saturating_add(FEW_STATES);
+    if header.states > fits {
+        let expected = format!("at most {fits} states in a file of {length} bytes");
+        return Err(lines.refuse(1, expected, header.states.to_string()));
     }
     let shape = LineShape { kind: header.kind, states: header.states };
     let mut assembler = Assembler::new(path, header)?;

@@ -1,8 +1,8 @@
 //! The members of a tar archive, each of which can be read on its own.
 
+use crate::files;
 use crate::formats::import::{ImportError, Packing, Position};
 use std::collections::HashMap;
-use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,6 +13,9 @@ const BUFFER: usize = 1 << 17;
 /// How many bytes of small members are kept at most, and of each of them.
 const KEPT: u64 = 64 << 20;
 const SMALL: u64 = 16 << 20;
+
+/// How long what tar says ahead of a member may be, its name above all.
+const LONGEST_NAME: u64 = 1 << 16;
 
 /// A UMB archive: where each member is.
 #[derive(Debug)]
@@ -31,6 +34,37 @@ struct Member {
     content: Option<Arc<[u8]>>,
 }
 
+/// Whether an entry is no member, but says something of the next one.
+fn is_extension(kind: tar::EntryType) -> bool {
+    kind.is_gnu_longname()
+        || kind.is_gnu_longlink()
+        || kind.is_pax_local_extensions()
+        || kind.is_pax_global_extensions()
+}
+
+/// The name of the next member, if an entry gives it.
+fn name_ahead(entry: &mut tar::Entry<'_, impl Read>) -> io::Result<Option<Vec<u8>>> {
+    let kind = entry.header().entry_type();
+    let mut content = vec![];
+    entry.read_to_end(&mut content)?;
+    if kind.is_gnu_longname() {
+        content.truncate(content.iter().position(|&byte| byte == 0).unwrap_or(content.len()));
+        return Ok(Some(content));
+    }
+    let mut name = None;
+    if kind.is_pax_local_extensions() {
+        for record in tar::PaxExtensions::new(&content) {
+            let record = record?;
+            match record.key_bytes() {
+                b"path" => name = Some(record.value_bytes().to_owned()),
+                b"size" => return Err(io::Error::other("a member of 8 GiB or more, as PAX writes its size")),
+                _ => {}
+            }
+        }
+    }
+    Ok(name)
+}
+
 /// One member, read from its start.
 pub(super) type MemberReader = BufReader<Box<dyn Read>>;
 
@@ -41,11 +75,7 @@ impl Archive {
     /// [`ImportError`] if the archive is damaged or cut short, or holds a member twice.
     pub(super) fn open(path: &Path) -> Result<Self, ImportError> {
         let io = |error| ImportError::io(path, error);
-        let mut file = File::open(path).map_err(io)?;
-        let metadata = file.metadata().map_err(io)?;
-        if !metadata.is_file() {
-            return Err(io(io::Error::other("it is not a regular file")));
-        }
+        let (mut file, _) = files::open(path).map_err(io)?;
         let packing = Packing::of(&mut file).map_err(io)?;
         let mut archive = Self { path: path.to_owned(), packing, members: HashMap::new() };
         let mut rest = archive.list(BufReader::with_capacity(BUFFER, packing.unpack(file)))?;
@@ -60,9 +90,20 @@ impl Archive {
         let damaged = |error| Self::damaged(&self.path, &error);
         let mut tar = tar::Archive::new(source);
         let (mut end, mut kept) = (0, 0);
-        for entry in tar.entries().map_err(damaged)? {
+        let mut long_name = None;
+        // Raw: otherwise a name is read as a whole, however long it is.
+        for entry in tar.entries().map_err(damaged)?.raw(true) {
             let mut entry = entry.map_err(damaged)?;
-            let name = String::from_utf8_lossy(&entry.path_bytes()).into_owned();
+            if is_extension(entry.header().entry_type()) {
+                if entry.size() > LONGEST_NAME {
+                    let found = format!("one of {} bytes", entry.size());
+                    return Err(Self::refuse(&self.path, "names of members that are shorter", found));
+                }
+                long_name = name_ahead(&mut entry).map_err(damaged)?.or(long_name);
+                continue;
+            }
+            let name = long_name.take().unwrap_or_else(|| entry.path_bytes().into_owned());
+            let name = String::from_utf8_lossy(&name);
             let name = name.strip_prefix("./").unwrap_or(&name).to_owned();
             let mut member = Member { offset: entry.raw_file_position(), bytes: entry.size(), content: None };
             if member.offset.checked_add(member.bytes).is_none() || member.offset < end {
@@ -133,7 +174,7 @@ impl Archive {
             return Ok(Some(BufReader::new(source)));
         }
         let io = |error| ImportError::io(&self.path, error);
-        let mut file = File::open(&self.path).map_err(io)?;
+        let (mut file, _) = files::open(&self.path).map_err(io)?;
         let source: Box<dyn Read> = if self.packing == Packing::None {
             file.seek(SeekFrom::Start(*offset)).map_err(io)?;
             Box::new(file.take(*bytes))

@@ -8,7 +8,7 @@ use super::sets::read_set;
 use super::transitions::read_transitions;
 use super::valuations::read_variables;
 use crate::formats::import::{ImportError, Imported, Position, Warning};
-use crate::model::{Labels, StateVariables};
+use crate::model::{Labels, StateVariables, require_memory};
 use std::path::Path;
 
 /// Reads an interval MDP or interval DTMC from a UMB archive, as it is or compressed with gzip or xz.
@@ -33,6 +33,8 @@ pub fn import_with_progress(path: &Path, progress: &mut dyn FnMut(u64)) -> Resul
     let archive = Archive::open(path)?;
     let mut index = Index::read(&archive)?;
     let states = index.counts.states;
+    let sets = index.labels.len() as u64 + 2;
+    require_memory(format!("{} labels", index.labels.len()), states.div_ceil(4).saturating_mul(sets))?;
     let initial = read_set(&archive, member::STATE_IS_INITIAL, states)?;
     let marked = initial.count_ones(..) as u64;
     if marked != index.counts.initial || marked == 0 {
