@@ -5,7 +5,7 @@ use dynabs::guarantee::{Claim, Gap, Guarantee};
 use dynabs::run::{Manifest, NATIVE_MODEL, RunFiles};
 use imdp::certificate::ModelFile;
 use imdp::files::{Snapshot, steady};
-use imdp::formats::Format;
+use imdp::formats::{Format, Warning};
 use imdp::formats::sha256_of_file;
 use imdp::model::IntervalMdp;
 use imdp::progress::Progress;
@@ -18,6 +18,8 @@ pub(super) struct LoadedModel {
     pub(super) warnings: Vec<String>,
     /// The file of properties that belongs to it, if there is one.
     pub(super) properties: PathBuf,
+    /// PRISM would not read the files as they are.
+    pub(super) has_own_layout: bool,
     /// What the model's files ask besides, in PRISM's syntax.
     pub(super) asks: String,
     /// The files it was read from.
@@ -208,6 +210,8 @@ fn load_file(path: &Path, format: Format, bars: &Bars) -> Result<LoadedModel, Cl
         true => CliError::Failure(error.to_string()),
         false => CliError::Input(error.to_string()),
     })?;
+    let layout = |warning: &Warning| matches!(warning, Warning::Layout { .. } | Warning::NoLabelFile { .. });
+    let has_own_layout = imported.warnings.iter().any(layout);
     let warnings = imported.warnings.iter().map(ToString::to_string).collect();
     let files = format.files(path);
     // `m.tra.gz` and `m.tra,sta,lab` have the properties of `m.tra`.
@@ -217,7 +221,7 @@ fn load_file(path: &Path, format: Format, bars: &Bars) -> Result<LoadedModel, Cl
     let properties = unpacked.with_extension("props");
     let read = snapshot(&files, &properties);
     let asks = imported.properties;
-    Ok(LoadedModel { model: imported.model, warnings, properties, asks, files, read, promise: None })
+    Ok(LoadedModel { model: imported.model, warnings, has_own_layout, properties, asks, files, read, promise: None })
 }
 
 fn snapshot(files: &[PathBuf], properties: &Path) -> Snapshot {

@@ -12,6 +12,7 @@ use imdp::engines::{
     cross_check, raised,
 };
 use imdp::evaluation::direct;
+use imdp::formats::prism::check_names;
 use imdp::model::available_memory;
 use imdp::property::{Inquiry, Property};
 use serde_json::json;
@@ -104,7 +105,9 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     let digests = loaded.digests()?;
     let failure = |error| CliError::Failure(format!("{}: {error}", arguments.path.display()));
     let raised = raised(&loaded.model).map_err(failure)?;
-    let files = explicit_files(&arguments.path, raised.is_some());
+    // Files that only we read are written again for the engines.
+    let as_is = check_names(&loaded.model).is_ok() && !loaded.has_own_layout;
+    let files = explicit_files(&arguments.path, raised.is_some()).filter(|_| as_is);
     let subject = Subject { model: &loaded.model, raised: raised.as_ref(), files: files.as_ref() };
     say(arguments, &loaded.warnings, "warning: ");
     say(arguments, &missing.iter().map(ToString::to_string).collect::<Vec<_>>(), "missing: ");

@@ -10,7 +10,7 @@ use crate::property::{
 use crate::solver::{Query, ValueBounds, solve, solve_delayed};
 
 /// `safe U[first, last] goal`
-struct Event {
+struct PathEvent {
     safe: Truth,
     goal: Truth,
     first: u64,
@@ -33,10 +33,10 @@ impl Evaluator<'_> {
                 let (first, last) = range(bounds);
                 return match operator {
                     TemporalOperator::Globally => {
-                        let event = Event { safe: always, goal: operand.not(), first, last };
+                        let event = PathEvent { safe: always, goal: operand.not(), first, last };
                         Ok(self.event(&event, resolution.flipped())?.complement())
                     }
-                    _ => self.event(&Event { safe: always, goal: operand, first, last }, resolution),
+                    _ => self.event(&PathEvent { safe: always, goal: operand, first, last }, resolution),
                 };
             }
             NodeKind::Until(operator, bounds, operands) if !operands.iter().any(is_path) => {
@@ -44,17 +44,17 @@ impl Evaluator<'_> {
                 let (first, last) = range(bounds);
                 return match operator {
                     UntilOperator::Until => {
-                        self.event(&Event { safe: left, goal: right, first, last }, resolution)
+                        self.event(&PathEvent { safe: left, goal: right, first, last }, resolution)
                     }
                     // `a W b` fails when neither holds before `b` has held.
                     UntilOperator::Weak if first == 0 => {
                         let (left, right) = (left.not(), right.not());
-                        let event = Event { goal: left.and(&right), safe: right, first, last };
+                        let event = PathEvent { goal: left.and(&right), safe: right, first, last };
                         Ok(self.event(&event, resolution.flipped())?.complement())
                     }
                     // `a R b` is the negation of `!a U !b`; so is a weak until whose first steps do not count.
                     UntilOperator::Release => {
-                        let event = Event { safe: left.not(), goal: right.not(), first, last };
+                        let event = PathEvent { safe: left.not(), goal: right.not(), first, last };
                         Ok(self.event(&event, resolution.flipped())?.complement())
                     }
                     UntilOperator::Weak => Err(crate::property::PropertyError::LateWeakUntil.into()),
@@ -77,8 +77,8 @@ impl Evaluator<'_> {
         Ok(ValueBounds { lower, upper })
     }
 
-    fn event(&mut self, event: &Event, resolution: Resolution) -> Result<ValueBounds, EvaluationError> {
-        let Event { safe, goal, first, last } = event;
+    fn event(&mut self, event: &PathEvent, resolution: Resolution) -> Result<ValueBounds, EvaluationError> {
+        let PathEvent { safe, goal, first, last } = event;
         let until = |safe, goal, this: &Self| match first {
             0 => solve(this.model, &Query::Until { safe, goal, steps: *last }, resolution, &this.options),
             _ => solve_delayed(this.model, (safe, goal), (*first, *last), resolution, &this.options),

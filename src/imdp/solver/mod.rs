@@ -41,6 +41,7 @@ mod unbounded;
 pub use answer::{Answer, AnswerError};
 pub use delay::solve_delayed;
 pub use expectation::worst_expectations;
+pub(crate) use omega::{Acceptance, accepting_states};
 pub use options::{Control, SolverOptions, Status};
 pub use policy::{NO_CHOICE, Policy};
 pub use prune::{PruneError, Pruned};
