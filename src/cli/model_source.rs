@@ -3,10 +3,10 @@
 use super::{Bars, CliError};
 use dynabs::guarantee::{Claim, Gap, Guarantee};
 use dynabs::run::{Manifest, NATIVE_MODEL, RunFiles};
-use imdp::certificate::ModelFile;
+use imdp::certificate::FileDigest;
 use imdp::files::{Snapshot, steady};
-use imdp::formats::{Format, Warning};
 use imdp::formats::sha256_of_file;
+use imdp::formats::{Format, Warning};
 use imdp::model::IntervalMdp;
 use imdp::progress::Progress;
 use imdp::property::{Property, PropertyError};
@@ -72,12 +72,12 @@ impl LoadedModel {
     ///
     /// # Errors
     /// [`CliError::Failure`] if they cannot be read again.
-    pub(super) fn digests(&self) -> Result<Vec<ModelFile>, CliError> {
+    pub(super) fn digests(&self) -> Result<Vec<FileDigest>, CliError> {
         self.require_unchanged()?;
         let digest = |path: &PathBuf| {
             let kind = path.extension().unwrap_or_default().to_string_lossy().into_owned();
             match sha256_of_file(path) {
-                Ok(sha256) => Ok(ModelFile { kind, sha256 }),
+                Ok(sha256) => Ok(FileDigest { kind, sha256 }),
                 Err(error) => Err(CliError::Failure(format!("{}: {error}", path.display()))),
             }
         };
@@ -221,7 +221,16 @@ fn load_file(path: &Path, format: Format, bars: &Bars) -> Result<LoadedModel, Cl
     let properties = unpacked.with_extension("props");
     let read = snapshot(&files, &properties);
     let asks = imported.properties;
-    Ok(LoadedModel { model: imported.model, warnings, has_own_layout, properties, asks, files, read, promise: None })
+    Ok(LoadedModel {
+        model: imported.model,
+        warnings,
+        has_own_layout,
+        properties,
+        asks,
+        files,
+        read,
+        promise: None,
+    })
 }
 
 fn snapshot(files: &[PathBuf], properties: &Path) -> Snapshot {

@@ -111,7 +111,8 @@ impl PropertyResult {
         verdict: Option<Verdict>,
         (status, steps, time): (Status, u64, Duration),
     ) -> Self {
-        let initial: Vec<InitialResult> = model.initial().ones().map(|state| in_state(state as StateId)).collect();
+        let initial: Vec<InitialResult> =
+            model.initial().ones().map(|state| in_state(state as StateId)).collect();
         let ended = matches!(status, Status::HorizonReached | Status::Converged);
         Self {
             property,
@@ -205,10 +206,18 @@ pub(super) fn table(results: &[PropertyResult]) -> String {
         );
         for InitialResult { state, lower, upper, satisfied } in result.initial.iter().take(LISTED) {
             let verdict = satisfied.map_or(String::new(), |satisfied| format!("{satisfied}   "));
-            let _ = writeln!(text, "    state {state}: {}", format!("{verdict}{}", value(*lower, *upper)).trim_end());
+            let _ = writeln!(
+                text,
+                "    state {state}: {}",
+                format!("{verdict}{}", value(*lower, *upper)).trim_end()
+            );
         }
         if result.initial.len() > LISTED {
-            let _ = writeln!(text, "    and {} more; --values writes those of all states", result.initial.len() - LISTED);
+            let _ = writeln!(
+                text,
+                "    and {} more; --values writes those of all states",
+                result.initial.len() - LISTED
+            );
         }
         if let Some(claim) = &result.guarantee {
             let covered = if claim.covered { "covered" } else { "not covered" };

@@ -191,7 +191,8 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
         phases.push(("solving", solving.elapsed()));
     }
     for result in &mut results {
-        let (guarantee, bounds) = (&abstraction.guarantee, [result.lower.unwrap_or(0.0), result.upper.unwrap_or(1.0)]);
+        let (guarantee, bounds) =
+            (&abstraction.guarantee, [result.lower.unwrap_or(0.0), result.upper.unwrap_or(1.0)]);
         let claim = guarantee.claim(&abstraction.property, &abstraction.model, bounds);
         result.guarantee = Some(claim.map_err(|error| CliError::Failure(error.to_string()))?);
     }

@@ -106,8 +106,8 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
         model = encoded.model;
     }
     if format == Format::Prism {
-        let (renamed, changed) =
-            identifiers(model, arguments.names.into()).map_err(|error| CliError::Failure(error.to_string()))?;
+        let (renamed, changed) = identifiers(model, arguments.names.into())
+            .map_err(|error| CliError::Failure(error.to_string()))?;
         model = renamed;
         warnings.extend(changed.iter().map(ToString::to_string));
         for name in changed.iter().filter(|name| name.kind == "label") {
@@ -235,7 +235,9 @@ impl Properties {
         let mut text = String::new();
         for entry in &self.entries {
             match &entry.inquiry {
-                Ok(Inquiry::Probability(property)) => text.push_str(&format!("{}\n", encoded.translate(property)?)),
+                Ok(Inquiry::Probability(property)) => {
+                    text.push_str(&format!("{}\n", encoded.translate(property)?))
+                }
                 _ => warnings.push(format!("{}: is not translated to one state per row", entry.text)),
             }
         }
@@ -249,7 +251,9 @@ impl Properties {
             _ => None,
         })?;
         let query = property.resolve(model.kind()).ok()?.query(model).ok()?;
-        let (QueryKind::Until { safe, goal, steps }, false) = (query.kind, query.complement) else { return None };
+        let (QueryKind::Until { safe, goal, steps }, false) = (query.kind, query.complement) else {
+            return None;
+        };
         let mut avoid = safe;
         avoid.toggle_range(..);
         avoid.difference_with(&goal);

@@ -34,8 +34,9 @@ impl Dnf {
     }
 
     fn minimal(disjuncts: BTreeSet<BTreeSet<u32>>) -> Self {
-        let is_minimal =
-            |disjunct: &&BTreeSet<u32>| !disjuncts.iter().any(|other| other != *disjunct && other.is_subset(disjunct));
+        let is_minimal = |disjunct: &&BTreeSet<u32>| {
+            !disjuncts.iter().any(|other| other != *disjunct && other.is_subset(disjunct))
+        };
         Self(disjuncts.iter().filter(is_minimal).cloned().collect())
     }
 
@@ -57,7 +58,10 @@ impl Dnf {
     }
 
     /// The combination with every atom replaced.
-    pub(super) fn replace(&self, mut meaning: impl FnMut(u32) -> Result<Self, LtlError>) -> Result<Self, LtlError> {
+    pub(super) fn replace(
+        &self,
+        mut meaning: impl FnMut(u32) -> Result<Self, LtlError>,
+    ) -> Result<Self, LtlError> {
         let mut result = Self::falsity();
         for disjunct in &self.0 {
             let mut conjunction = Self::truth();
@@ -163,7 +167,11 @@ impl Formulas {
         let itself = || Dnf::atom(id);
         Ok(match self.get(id) {
             Modal::Literal(proposition, positive) => {
-                if (letter >> proposition & 1 == 1) == *positive { Dnf::truth() } else { Dnf::falsity() }
+                if (letter >> proposition & 1 == 1) == *positive {
+                    Dnf::truth()
+                } else {
+                    Dnf::falsity()
+                }
             }
             Modal::Next(operand) => operand.clone(),
             Modal::Finally(operand) => self.after(operand, letter)?.or(&itself()),
@@ -189,7 +197,9 @@ impl Formulas {
             }
             match self.get(id) {
                 Modal::Literal(..) => {}
-                Modal::Next(operand) | Modal::Finally(operand) | Modal::Globally(operand) => open.extend(operand.atoms()),
+                Modal::Next(operand) | Modal::Finally(operand) | Modal::Globally(operand) => {
+                    open.extend(operand.atoms())
+                }
                 Modal::Until(left, right)
                 | Modal::Weak(left, right)
                 | Modal::Release(left, right)
@@ -207,7 +217,11 @@ impl Formulas {
                 Modal::Literal(..) => Dnf::atom(id),
                 Modal::Next(operand) => {
                     let operand = self.as_safety(&operand, often)?;
-                    if operand.is_true() || operand.is_false() { operand } else { self.modal(Modal::Next(operand)) }
+                    if operand.is_true() || operand.is_false() {
+                        operand
+                    } else {
+                        self.modal(Modal::Next(operand))
+                    }
                 }
                 Modal::Globally(operand) => {
                     let operand = self.as_safety(&operand, often)?;
@@ -221,7 +235,13 @@ impl Formulas {
                     let (left, right) = (self.as_safety(&left, often)?, self.as_safety(&right, often)?);
                     self.release(left, right)
                 }
-                Modal::Finally(_) => if often.contains(&id) { Dnf::truth() } else { Dnf::falsity() },
+                Modal::Finally(_) => {
+                    if often.contains(&id) {
+                        Dnf::truth()
+                    } else {
+                        Dnf::falsity()
+                    }
+                }
                 Modal::Until(left, right) if often.contains(&id) => {
                     let (left, right) = (self.as_safety(&left, often)?, self.as_safety(&right, often)?);
                     self.weak(left, right)
@@ -245,7 +265,11 @@ impl Formulas {
                 Modal::Literal(..) => Dnf::atom(id),
                 Modal::Next(operand) => {
                     let operand = self.as_cosafety(&operand, always)?;
-                    if operand.is_true() || operand.is_false() { operand } else { self.modal(Modal::Next(operand)) }
+                    if operand.is_true() || operand.is_false() {
+                        operand
+                    } else {
+                        self.modal(Modal::Next(operand))
+                    }
                 }
                 Modal::Finally(operand) => {
                     let operand = self.as_cosafety(&operand, always)?;
@@ -259,7 +283,9 @@ impl Formulas {
                     let (left, right) = (self.as_cosafety(&left, always)?, self.as_cosafety(&right, always)?);
                     self.strong(left, right)
                 }
-                Modal::Globally(_) | Modal::Weak(..) | Modal::Release(..) if always.contains(&id) => Dnf::truth(),
+                Modal::Globally(_) | Modal::Weak(..) | Modal::Release(..) if always.contains(&id) => {
+                    Dnf::truth()
+                }
                 Modal::Globally(_) => Dnf::falsity(),
                 Modal::Weak(left, right) => {
                     let (left, right) = (self.as_cosafety(&left, always)?, self.as_cosafety(&right, always)?);

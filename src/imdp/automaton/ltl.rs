@@ -58,7 +58,13 @@ impl Ltl {
     /// The formula or its negation, in normal form.
     pub(super) fn normal(&self, positive: bool, formulas: &mut Formulas) -> Result<Dnf, LtlError> {
         Ok(match self {
-            Self::True => if positive { Dnf::truth() } else { Dnf::falsity() },
+            Self::True => {
+                if positive {
+                    Dnf::truth()
+                } else {
+                    Dnf::falsity()
+                }
+            }
             Self::Proposition(index) => formulas.modal(Modal::Literal(*index, positive)),
             Self::Not(operand) => operand.normal(!positive, formulas)?,
             Self::And(operands) => combine(operands, positive, positive, formulas)?,

@@ -47,7 +47,8 @@ impl Automaton {
             starts.push(start(check, &remainder, &mut formulas)?);
         }
         let decided = vec![false; starts.len()];
-        let mut automaton = Self { formulas, checks, states: vec![], ids: HashMap::new(), steps: HashMap::new() };
+        let mut automaton =
+            Self { formulas, checks, states: vec![], ids: HashMap::new(), steps: HashMap::new() };
         automaton.id(State { remainder, checks: starts, decided })?;
         Ok(automaton)
     }
@@ -248,7 +249,11 @@ mod tests {
                 let (stem, cycle) = (letters(0), letters(1));
                 let word = [stem.clone(), cycle.clone()].concat();
                 let expected = holds(&formula, &word, stem.len())[0];
-                assert_eq!(accepts(&formula, &stem, &cycle), expected, "{round}: {formula:?} {stem:?} {cycle:?}");
+                assert_eq!(
+                    accepts(&formula, &stem, &cycle),
+                    expected,
+                    "{round}: {formula:?} {stem:?} {cycle:?}"
+                );
             }
         }
     }

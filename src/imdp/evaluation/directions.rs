@@ -43,7 +43,8 @@ fn other(optimum: Optimum, model: &IntervalMdp, nature: Option<Nature>) -> Optio
     let maximises = match optimum {
         Optimum::Both(_) => return None,
         Optimum::Only => {
-            let has_choice = (0..model.num_states() as u32).any(|state| model.choices().num_choices_of(state) > 1);
+            let has_choice =
+                (0..model.num_states() as u32).any(|state| model.choices().num_choices_of(state) > 1);
             return (is_point(model) && !has_choice).then_some(Resolution::Pmaxmax);
         }
         Optimum::Max => true,

@@ -49,7 +49,9 @@ pub enum EvaluationError {
     #[error("the condition of a filter holds in no state")]
     NoState,
     /// A formula inside of another is not decided in some state.
-    #[error("a formula inside of the path formula is not decided in state {state}; a smaller --epsilon may help")]
+    #[error(
+        "a formula inside of the path formula is not decided in state {state}; a smaller --epsilon may help"
+    )]
     Undecided {
         /// The state.
         state: usize,

@@ -17,7 +17,8 @@ impl Evaluator<'_> {
             }
             Some(VariableValues::Bool(_)) => Err(PropertyError::NotInteger { name: name.to_owned() }.into()),
             None => {
-                let known: Vec<_> = self.model.variables().iter().map(|variable| variable.name.clone()).collect();
+                let known: Vec<_> =
+                    self.model.variables().iter().map(|variable| variable.name.clone()).collect();
                 let is_label = self.model.labels().get(name).is_some();
                 let closest = is_label.then(|| format!("\"{name}\""));
                 Err(PropertyError::UnknownVariable { name: name.to_owned(), closest, known }.into())

@@ -4,7 +4,8 @@ use super::{EvaluationError, Nature, Numbers, Truth, Values, interval};
 use crate::model::{IntervalMdp, VariableValues};
 use crate::numeric::{Rational, to_f64_down, to_f64_up};
 use crate::property::{
-    BinaryOperator, Comparison, Constant, Function, Node, NodeKind, Verdict, arithmetic, call, constant, formula, is_formula,
+    BinaryOperator, Constant, Function, Node, NodeKind, Relation, Verdict, arithmetic, call, constant,
+    formula, is_formula,
 };
 use crate::solver::{Policy, SolverOptions, Status, ValueBounds};
 
@@ -22,7 +23,15 @@ pub(super) struct Evaluator<'a> {
 
 impl<'a> Evaluator<'a> {
     pub(super) fn new(model: &'a IntervalMdp, nature: Option<Nature>, options: SolverOptions<'a>) -> Self {
-        Self { model, nature, options, status: Status::HorizonReached, iterations: 0, policy: None, operators: 0 }
+        Self {
+            model,
+            nature,
+            options,
+            status: Status::HorizonReached,
+            iterations: 0,
+            policy: None,
+            operators: 0,
+        }
     }
 
     pub(super) fn finish(self) -> (Status, u64, Option<Policy>) {
@@ -95,16 +104,21 @@ impl<'a> Evaluator<'a> {
         })
     }
 
-    fn comparison(&mut self, comparison: Comparison, left: &Node, right: &Node) -> Result<Truth, EvaluationError> {
+    fn comparison(
+        &mut self,
+        comparison: Relation,
+        left: &Node,
+        right: &Node,
+    ) -> Result<Truth, EvaluationError> {
         let boolean = |node: &Node| match &node.kind {
             NodeKind::Variable(name) => self.is_boolean(name),
             _ => is_formula(node),
         };
-        let is_equality = matches!(comparison, Comparison::Equal | Comparison::NotEqual);
+        let is_equality = matches!(comparison, Relation::Equal | Relation::NotEqual);
         if is_equality && (boolean(left) || boolean(right)) {
             let left = self.truth(left)?;
             let same = left.iff(&self.truth(right)?);
-            return Ok(if comparison == Comparison::Equal { same } else { same.not() });
+            return Ok(if comparison == Relation::Equal { same } else { same.not() });
         }
         let (left, right) = (self.numbers(left)?, self.numbers(right)?);
         Ok(compare(comparison, &left, &right))
@@ -128,7 +142,8 @@ impl<'a> Evaluator<'a> {
                 self.combine(*operator, &left, &right)
             }
             NodeKind::Call(function, arguments) => {
-                let arguments = arguments.iter().map(|node| self.numbers(node)).collect::<Result<Vec<_>, _>>()?;
+                let arguments =
+                    arguments.iter().map(|node| self.numbers(node)).collect::<Result<Vec<_>, _>>()?;
                 self.function(*function, &arguments)
             }
             NodeKind::Conditional(parts) => {
@@ -161,7 +176,12 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    fn combine(&self, operator: BinaryOperator, left: &Numbers, right: &Numbers) -> Result<Numbers, EvaluationError> {
+    fn combine(
+        &self,
+        operator: BinaryOperator,
+        left: &Numbers,
+        right: &Numbers,
+    ) -> Result<Numbers, EvaluationError> {
         let states = left.len();
         if left.exact(0).is_some() && right.exact(0).is_some() {
             self.require_numbers(states)?;
@@ -181,15 +201,20 @@ impl<'a> Evaluator<'a> {
         if arguments.iter().all(|argument| argument.exact(0).is_some()) {
             self.require_numbers(states)?;
             let value = |state: usize| {
-                let values: Option<Vec<_>> = arguments.iter().map(|argument| argument.exact(state).cloned()).collect();
+                let values: Option<Vec<_>> =
+                    arguments.iter().map(|argument| argument.exact(state).cloned()).collect();
                 let value = values.and_then(|values| call(function, &values));
-                value.ok_or(EvaluationError::Undefined { state, problem: "mod and pow want whole numbers, mod a positive one" })
+                value.ok_or(EvaluationError::Undefined {
+                    state,
+                    problem: "mod and pow want whole numbers, mod a positive one",
+                })
             };
             return (0..states).map(value).collect::<Result<_, _>>().map(Numbers::Exact);
         }
         let fold = |state: usize, combine: fn(f64, f64) -> f64| {
             let all = arguments.iter().map(|argument| argument.bounds(state));
-            all.reduce(|a, b| (combine(a.0, b.0), combine(a.1, b.1))).unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
+            all.reduce(|a, b| (combine(a.0, b.0), combine(a.1, b.1)))
+                .unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
         };
         let value = |state| match function {
             Function::Minimum => fold(state, f64::min),
@@ -210,20 +235,22 @@ pub(super) fn bounds(values: impl Iterator<Item = (f64, f64)>) -> Numbers {
 }
 
 /// Where numbers compare like this.
-pub(super) fn compare(comparison: Comparison, left: &Numbers, right: &Numbers) -> Truth {
+pub(super) fn compare(comparison: Relation, left: &Numbers, right: &Numbers) -> Truth {
     let verdict = |state| match (left.exact(state), right.exact(state)) {
-        (Some(left), Some(right)) => decide(comparison.compares(left, right), !comparison.compares(left, right)),
+        (Some(left), Some(right)) => {
+            decide(comparison.compares(left, right), !comparison.compares(left, right))
+        }
         (None, Some(right)) => against(comparison, left.bounds(state), right),
         (Some(left), None) => against(mirrored(comparison), right.bounds(state), left),
         (None, None) => {
             let ((a, b), (c, d)) = (left.bounds(state), right.bounds(state));
             match comparison {
-                Comparison::Less => decide(b < c, a >= d),
-                Comparison::LessEqual => decide(b <= c, a > d),
-                Comparison::Greater => decide(a > d, b <= c),
-                Comparison::GreaterEqual => decide(a >= d, b < c),
-                Comparison::Equal => decide(a == b && a == c && a == d, b < c || a > d),
-                Comparison::NotEqual => decide(b < c || a > d, a == b && a == c && a == d),
+                Relation::Less => decide(b < c, a >= d),
+                Relation::LessEqual => decide(b <= c, a > d),
+                Relation::Greater => decide(a > d, b <= c),
+                Relation::GreaterEqual => decide(a >= d, b < c),
+                Relation::Equal => decide(a == b && a == c && a == d, b < c || a > d),
+                Relation::NotEqual => decide(b < c || a > d, a == b && a == c && a == d),
             }
         }
     };
@@ -231,17 +258,17 @@ pub(super) fn compare(comparison: Comparison, left: &Numbers, right: &Numbers) -
 }
 
 /// A number within bounds compared with one that is known exactly.
-fn against(comparison: Comparison, (lower, upper): (f64, f64), exact: &Rational) -> Verdict {
+fn against(comparison: Relation, (lower, upper): (f64, f64), exact: &Rational) -> Verdict {
     // A double is at least a number if and only if it is at least the next double above it.
     let (down, up) = (to_f64_down(exact), to_f64_up(exact));
     let is_point = lower == upper && down == up && lower == down;
     match comparison {
-        Comparison::GreaterEqual => decide(lower >= up, upper < up),
-        Comparison::Greater => decide(lower > down, upper <= down),
-        Comparison::LessEqual => decide(upper <= down, lower > down),
-        Comparison::Less => decide(upper < up, lower >= up),
-        Comparison::Equal => decide(is_point, lower > down || upper < up),
-        Comparison::NotEqual => decide(lower > down || upper < up, is_point),
+        Relation::GreaterEqual => decide(lower >= up, upper < up),
+        Relation::Greater => decide(lower > down, upper <= down),
+        Relation::LessEqual => decide(upper <= down, lower > down),
+        Relation::Less => decide(upper < up, lower >= up),
+        Relation::Equal => decide(is_point, lower > down || upper < up),
+        Relation::NotEqual => decide(lower > down || upper < up, is_point),
     }
 }
 
@@ -253,12 +280,12 @@ fn decide(holds: bool, fails: bool) -> Verdict {
     }
 }
 
-fn mirrored(comparison: Comparison) -> Comparison {
+fn mirrored(comparison: Relation) -> Relation {
     match comparison {
-        Comparison::Less => Comparison::Greater,
-        Comparison::LessEqual => Comparison::GreaterEqual,
-        Comparison::Greater => Comparison::Less,
-        Comparison::GreaterEqual => Comparison::LessEqual,
+        Relation::Less => Relation::Greater,
+        Relation::LessEqual => Relation::GreaterEqual,
+        Relation::Greater => Relation::Less,
+        Relation::GreaterEqual => Relation::LessEqual,
         other => other,
     }
 }

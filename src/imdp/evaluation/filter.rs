@@ -35,7 +35,8 @@ fn of_truth(
     let constant = |verdict: Verdict| Values::Truth(Truth::of_verdicts(vec![verdict; states].into_iter()));
     Ok(match operator {
         FilterOperator::Count => {
-            let count = |holds: fn(Verdict) -> bool| verdicts().filter(|verdict| holds(*verdict)).count() as f64;
+            let count =
+                |holds: fn(Verdict) -> bool| verdicts().filter(|verdict| holds(*verdict)).count() as f64;
             let certain = count(|verdict| verdict == Verdict::Holds);
             let possible = count(|verdict| verdict != Verdict::Fails);
             Values::Numbers(Numbers::constant_bounds((certain, possible), states))
@@ -45,9 +46,7 @@ fn of_truth(
             let flipped = verdicts().map(flip);
             constant(flip(Verdict::in_all(flipped)))
         }
-        FilterOperator::State | FilterOperator::First => {
-            constant(truth.verdict(only(operator, selected)?))
-        }
+        FilterOperator::State | FilterOperator::First => constant(truth.verdict(only(operator, selected)?)),
         _ => Values::Truth(truth),
     })
 }
@@ -68,7 +67,9 @@ fn of_numbers(
 ) -> Result<Values, EvaluationError> {
     let all = || selected.iter().map(|&state| numbers.bounds(state));
     let fold = |combine: fn(f64, f64) -> f64| {
-        all().reduce(|a, b| (combine(a.0, b.0), combine(a.1, b.1))).unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
+        all()
+            .reduce(|a, b| (combine(a.0, b.0), combine(a.1, b.1)))
+            .unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
     };
     let sum = || all().reduce(|a, b| interval::arithmetic(BinaryOperator::Add, a, b)).unwrap_or((0.0, 0.0));
     let value = match operator {

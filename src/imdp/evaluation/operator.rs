@@ -5,8 +5,8 @@ use super::{EvaluationError, Numbers, Truth, directions};
 use crate::model::RewardStructure;
 use crate::numeric::to_f64;
 use crate::property::{
-    Asked, Comparison, Constant, Measured, Node, NodeKind, Operator, Resolution, RewardPath, StepBound, Structure,
-    ThresholdComparison, constant,
+    Asked, Constant, Measured, Node, NodeKind, Operator, Relation, Resolution, RewardPath, StepBound,
+    Structure, ThresholdComparison, constant,
 };
 use crate::solver::{RewardQuery, Solution, SolverOptions, Status, ValueBounds, solve_rewards};
 use num_traits::ToPrimitive;
@@ -21,10 +21,10 @@ impl Evaluator<'_> {
         let values = Numbers::Bounds(self.measured(&operator.measured, resolution)?);
         let threshold = self.numbers(threshold)?;
         let comparison = match comparison {
-            ThresholdComparison::AtLeast => Comparison::GreaterEqual,
-            ThresholdComparison::Above => Comparison::Greater,
-            ThresholdComparison::AtMost => Comparison::LessEqual,
-            ThresholdComparison::Below => Comparison::Less,
+            ThresholdComparison::AtLeast => Relation::GreaterEqual,
+            ThresholdComparison::Above => Relation::Greater,
+            ThresholdComparison::AtMost => Relation::LessEqual,
+            ThresholdComparison::Below => Relation::Less,
         };
         Ok(compare(comparison, &values, &threshold))
     }
@@ -39,7 +39,11 @@ impl Evaluator<'_> {
         self.measured(&operator.measured, resolution)
     }
 
-    fn measured(&mut self, measured: &Measured, resolution: Resolution) -> Result<ValueBounds, EvaluationError> {
+    fn measured(
+        &mut self,
+        measured: &Measured,
+        resolution: Resolution,
+    ) -> Result<ValueBounds, EvaluationError> {
         self.operators += 1;
         match measured {
             Measured::Probability(path) => self.probability(path, resolution),
@@ -132,7 +136,8 @@ fn find<'m>(
         Structure::First => (rewards.nth(0), "at all".to_owned()),
         Structure::Name(name) => (rewards.get(name), format!("\"{name}\"")),
         Structure::Number(node) => {
-            let number = constant(node).and_then(Constant::number).and_then(|value| value.to_integer().to_usize());
+            let number =
+                constant(node).and_then(Constant::number).and_then(|value| value.to_integer().to_usize());
             let number = number.unwrap_or(0);
             (number.checked_sub(1).and_then(|index| rewards.nth(index)), number.to_string())
         }

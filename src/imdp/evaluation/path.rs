@@ -7,7 +7,7 @@ use crate::automaton::Ltl;
 use crate::property::{
     BinaryOperator, Node, NodeKind, Resolution, StepBounds, TemporalOperator, UntilOperator,
 };
-use crate::solver::{Query, ValueBounds, solve, solve_delayed};
+use crate::solver::{Event, ValueBounds, solve, solve_delayed};
 
 /// `safe U[first, last] goal`
 struct PathEvent {
@@ -19,7 +19,11 @@ struct PathEvent {
 
 impl Evaluator<'_> {
     /// Bounds on the probability of a path formula.
-    pub(super) fn probability(&mut self, path: &Node, resolution: Resolution) -> Result<ValueBounds, EvaluationError> {
+    pub(super) fn probability(
+        &mut self,
+        path: &Node,
+        resolution: Resolution,
+    ) -> Result<ValueBounds, EvaluationError> {
         match &path.kind {
             NodeKind::Not(operand) => {
                 return Ok(self.probability(operand, resolution.flipped())?.complement());
@@ -68,11 +72,11 @@ impl Evaluator<'_> {
     }
 
     fn next(&mut self, goal: &Truth, resolution: Resolution) -> Result<ValueBounds, EvaluationError> {
-        let lower = solve(self.model, &Query::Next { goal: &goal.must }, resolution, &self.options)?;
+        let lower = solve(self.model, &Event::Next { goal: &goal.must }, resolution, &self.options)?;
         if goal.is_exact() {
             return Ok(self.note(lower));
         }
-        let upper = solve(self.model, &Query::Next { goal: &goal.may }, resolution, &self.options)?;
+        let upper = solve(self.model, &Event::Next { goal: &goal.may }, resolution, &self.options)?;
         let (lower, upper) = (self.note(lower).lower, self.note(upper).upper);
         Ok(ValueBounds { lower, upper })
     }
@@ -80,7 +84,7 @@ impl Evaluator<'_> {
     fn event(&mut self, event: &PathEvent, resolution: Resolution) -> Result<ValueBounds, EvaluationError> {
         let PathEvent { safe, goal, first, last } = event;
         let until = |safe, goal, this: &Self| match first {
-            0 => solve(this.model, &Query::Until { safe, goal, steps: *last }, resolution, &this.options),
+            0 => solve(this.model, &Event::Until { safe, goal, steps: *last }, resolution, &this.options),
             _ => solve_delayed(this.model, (safe, goal), (*first, *last), resolution, &this.options),
         };
         // More safe states and more goal states make the event more probable.
@@ -107,21 +111,18 @@ impl Evaluator<'_> {
         let mut boxed = |node: &Node, this: &mut Self| this.formula(node, propositions).map(Box::new);
         Ok(match &node.kind {
             NodeKind::Not(operand) => Ltl::Not(boxed(operand, self)?),
-            NodeKind::And(operands) => {
-                Ltl::And(operands.iter().map(|node| self.formula(node, propositions)).collect::<Result<_, _>>()?)
-            }
-            NodeKind::Or(operands) => {
-                Ltl::Or(operands.iter().map(|node| self.formula(node, propositions)).collect::<Result<_, _>>()?)
-            }
+            NodeKind::And(operands) => Ltl::And(
+                operands.iter().map(|node| self.formula(node, propositions)).collect::<Result<_, _>>()?,
+            ),
+            NodeKind::Or(operands) => Ltl::Or(
+                operands.iter().map(|node| self.formula(node, propositions)).collect::<Result<_, _>>()?,
+            ),
             NodeKind::Binary(operator, left, right) => {
                 let (left, right) = (self.formula(left, propositions)?, self.formula(right, propositions)?);
                 let not = |formula: &Ltl| Ltl::Not(Box::new(formula.clone()));
                 match operator {
                     BinaryOperator::Implies => Ltl::Or(vec![not(&left), right]),
-                    _ => Ltl::Or(vec![
-                        Ltl::And(vec![not(&left), not(&right)]),
-                        Ltl::And(vec![left, right]),
-                    ]),
+                    _ => Ltl::Or(vec![Ltl::And(vec![not(&left), not(&right)]), Ltl::And(vec![left, right])]),
                 }
             }
             NodeKind::Temporal(operator, bounds, operand) => {
@@ -158,9 +159,8 @@ fn temporal(operator: TemporalOperator, bounds: &StepBounds, operand: Ltl) -> Lt
         (TemporalOperator::Next, _) => Ltl::Next(Box::new(operand)),
         (TemporalOperator::Finally, None) => Ltl::Finally(Box::new(operand)),
         (TemporalOperator::Globally, None) => Ltl::Globally(Box::new(operand)),
-        (TemporalOperator::Finally, Some(last)) => (first..last).fold(operand.clone(), |formula, _| {
-            Ltl::Or(vec![operand.clone(), Ltl::Next(Box::new(formula))])
-        }),
+        (TemporalOperator::Finally, Some(last)) => (first..last)
+            .fold(operand.clone(), |formula, _| Ltl::Or(vec![operand.clone(), Ltl::Next(Box::new(formula))])),
         (TemporalOperator::Globally, Some(last)) => (first..last).fold(operand.clone(), |formula, _| {
             Ltl::And(vec![operand.clone(), Ltl::Next(Box::new(formula))])
         }),

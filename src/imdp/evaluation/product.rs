@@ -4,11 +4,11 @@ use super::expression::Evaluator;
 use super::{EvaluationError, Truth};
 use crate::automaton::{Automaton, Condition, Ltl};
 use crate::model::{
-    ActionNames, ChoicesBuilder, IntervalMdp, Labels, Parts, RowId, RowRange, Rows, StateId, StateSet, StateVariables,
-    require_memory,
+    ActionNames, ChoicesBuilder, IntervalMdp, Labels, Parts, RowId, RowRange, Rows, StateId, StateSet,
+    StateVariables, require_memory,
 };
 use crate::property::Resolution;
-use crate::solver::{Acceptance, Query, ValueBounds, accepting_states, solve};
+use crate::solver::{Acceptance, Event, ValueBounds, accepting_states, solve};
 use std::collections::HashMap;
 
 /// What a state of the product takes in memory.
@@ -45,7 +45,9 @@ impl Evaluator<'_> {
         let upper_goal = product.goal(true);
         let lower_goal = if resolution.nature_maximises() { upper_goal.clone() } else { product.goal(false) };
         let options = crate::solver::SolverOptions { policy: false, evidence: false, ..self.options };
-        let until = |goal| solve(&product.model, &Query::Until { safe: &all, goal, steps: None }, resolution, &options);
+        let until = |goal| {
+            solve(&product.model, &Event::Until { safe: &all, goal, steps: None }, resolution, &options)
+        };
         let lower = until(&lower_goal)?;
         let of_starts = |values: &[f64]| product.starts.iter().map(|&state| values[state as usize]).collect();
         if lower_goal == upper_goal {
@@ -146,7 +148,8 @@ impl Product {
         let conditions = pairs.automaton.conditions().to_vec();
         let met = |check: usize| {
             let mut set = StateSet::with_capacity(states);
-            let decides = |(_, (_, memory)): &(usize, &(StateId, u32))| pairs.automaton.decides(*memory, check);
+            let decides =
+                |(_, (_, memory)): &(usize, &(StateId, u32))| pairs.automaton.decides(*memory, check);
             pairs.pairs.iter().enumerate().filter(decides).for_each(|(state, _)| set.insert(state));
             set
         };

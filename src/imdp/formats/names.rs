@@ -134,7 +134,12 @@ pub fn identifiers(model: IntervalMdp, names: Names) -> Result<(IntervalMdp, Vec
 }
 
 /// For every name, what is written: itself if it is an identifier.
-fn fit(kind: &'static str, all: &[String], names: Names, changed: &mut Vec<ChangedName>) -> Vec<Option<String>> {
+fn fit(
+    kind: &'static str,
+    all: &[String],
+    names: Names,
+    changed: &mut Vec<ChangedName>,
+) -> Vec<Option<String>> {
     let mut taken: HashSet<String> = all.iter().filter(|name| is_identifier(name)).cloned().collect();
     let mut fit = |name: &String| {
         if is_identifier(name) {

@@ -1,6 +1,6 @@
 //! Expressions without variables, evaluated exactly.
 
-use super::Comparison;
+use super::Relation;
 use super::tree::{BinaryOperator, Function, Node, NodeKind};
 use crate::numeric::Rational;
 use num_bigint::BigInt;
@@ -126,7 +126,7 @@ pub(crate) fn decimal(text: &str) -> Option<Rational> {
     Some(if power >= 0 { Rational::from_integer(digits * scale) } else { Rational::new(digits, scale) })
 }
 
-impl Comparison {
+impl Relation {
     /// Whether two numbers compare like this.
     pub(crate) fn compares<T: PartialOrd>(self, left: &T, right: &T) -> bool {
         match self {

@@ -91,7 +91,9 @@ impl Parser<'_> {
             }
             TokenKind::Word("label") => {
                 self.advance();
-                let Some(span) = self.quoted() else { return Err(self.unexpected("the name of a label in quotes")) };
+                let Some(span) = self.quoted() else {
+                    return Err(self.unexpected("the name of a label in quotes"));
+                };
                 let name = self.text(span).to_owned();
                 self.expect("=", "`=` and a formula")?;
                 let formula = self.defined(definitions)?;

@@ -59,20 +59,20 @@ pub use definitions::Definitions;
 pub use document::{Entry, Inquiry, parse_document};
 pub use error::PropertyError;
 pub use integer_expression::IntegerExpression;
-pub use parse_error::{ParseError, ParseErrorKind, Position};
+pub use parse_error::{ParseError, ParseErrorKind, TextPosition};
 pub use path_formula::PathFormula;
 pub use query::{Query, QueryKind};
 pub use question::{Objective, Property, Question};
-pub use resolution::{Optimum, Resolution};
-pub use state_formula::{Comparison, StateFormula};
-pub use threshold::{Probability, ProbabilityError, Threshold, ThresholdComparison, Verdict};
 pub use read::{parse_inquiry, parse_properties, parse_property};
+pub use resolution::{Optimum, Resolution};
+pub use state_formula::{Relation, StateFormula};
+pub use threshold::{Probability, ProbabilityError, Threshold, ThresholdComparison, Verdict};
 
 pub(crate) use constant::{Constant, arithmetic, call, constant};
 pub(crate) use simple::{formula, is_formula};
 pub(crate) use tree::{
-    Asked, BinaryOperator, Filter, FilterOperator, Function, Measured, Node, NodeKind, Operator, RewardPath, StepBound,
-    StepBounds, Structure, TemporalOperator, UntilOperator,
+    Asked, BinaryOperator, Filter, FilterOperator, Function, Measured, Node, NodeKind, Operator, RewardPath,
+    StepBound, StepBounds, Structure, TemporalOperator, UntilOperator,
 };
 
 #[cfg(test)]

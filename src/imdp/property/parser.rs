@@ -144,7 +144,9 @@ impl<'a> Parser<'a> {
     pub(super) fn property_name(&mut self) -> Option<&'a str> {
         let start = self.next;
         let name = self.quoted();
-        if self.accept(":") && let Some(name) = name {
+        if self.accept(":")
+            && let Some(name) = name
+        {
             return Some(self.text(name));
         }
         self.next = start;

@@ -57,7 +57,9 @@ impl Parser<'_> {
                 let optimum = match suffix.as_str() {
                     "" if self.peek() == TokenKind::Symbol("=") => Optimum::Only,
                     suffix => Optimum::from_suffix(suffix).ok_or_else(|| {
-                        self.unexpected("Pmaxmin, Pmaxmax, Pminmin, Pminmax, Pmin, Pmax or P>=p (or R likewise)")
+                        self.unexpected(
+                            "Pmaxmin, Pmaxmax, Pminmin, Pminmax, Pmin, Pmax or P>=p (or R likewise)",
+                        )
                     })?,
                 };
                 self.expect("=", "`=?`")?;

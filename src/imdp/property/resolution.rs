@@ -76,20 +76,20 @@ impl Optimum {
     /// [`PropertyError`] if the optimum says less or more than such a model needs.
     pub fn resolve(self, kind: ModelKind) -> Result<Resolution, PropertyError> {
         match (self, kind) {
-        (Self::Both(resolution), ModelKind::Imdp) => Ok(resolution),
-        (Self::Only, _) => Err(PropertyError::NoDirection),
-        (Self::Min, ModelKind::Idtmc) => Ok(Resolution::Pminmin),
-        (Self::Max, ModelKind::Idtmc) => Ok(Resolution::Pmaxmax),
-        (Self::Min, ModelKind::Imdp) => {
-            Err(PropertyError::PlainOptimum { found: self, prism: "Pminmin", storm: "Pminmax" })
-        }
-        (Self::Max, ModelKind::Imdp) => {
-            Err(PropertyError::PlainOptimum { found: self, prism: "Pmaxmax", storm: "Pmaxmin" })
-        }
-        (Self::Both(found), ModelKind::Idtmc) => Err(PropertyError::NoPolicy {
-            found,
-            instead: if found.nature_maximises() { "Pmax" } else { "Pmin" },
-        }),
+            (Self::Both(resolution), ModelKind::Imdp) => Ok(resolution),
+            (Self::Only, _) => Err(PropertyError::NoDirection),
+            (Self::Min, ModelKind::Idtmc) => Ok(Resolution::Pminmin),
+            (Self::Max, ModelKind::Idtmc) => Ok(Resolution::Pmaxmax),
+            (Self::Min, ModelKind::Imdp) => {
+                Err(PropertyError::PlainOptimum { found: self, prism: "Pminmin", storm: "Pminmax" })
+            }
+            (Self::Max, ModelKind::Imdp) => {
+                Err(PropertyError::PlainOptimum { found: self, prism: "Pmaxmax", storm: "Pmaxmin" })
+            }
+            (Self::Both(found), ModelKind::Idtmc) => Err(PropertyError::NoPolicy {
+                found,
+                instead: if found.nature_maximises() { "Pmax" } else { "Pmin" },
+            }),
         }
     }
 

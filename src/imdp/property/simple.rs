@@ -6,8 +6,8 @@ use super::tree::{
     Asked, BinaryOperator, Measured, Node, NodeKind, Operator, TemporalOperator, UntilOperator,
 };
 use super::{
-    Comparison, Compound, Inquiry, IntegerExpression, ParseErrorKind, PathFormula, Probability, ProbabilityError,
-    Property, Question, StateFormula, Threshold, ThresholdComparison,
+    Compound, Inquiry, IntegerExpression, ParseErrorKind, PathFormula, Probability, ProbabilityError,
+    Property, Question, Relation, StateFormula, Threshold, ThresholdComparison,
 };
 
 impl Parser<'_> {
@@ -32,7 +32,10 @@ impl Parser<'_> {
                 Operator { asked: Asked::Value(optimum), measured: Measured::Probability(path) } => {
                     simple(path, Question::Value(*optimum))
                 }
-                Operator { asked: Asked::ForAll(comparison, threshold), measured: Measured::Probability(path) } => {
+                Operator {
+                    asked: Asked::ForAll(comparison, threshold),
+                    measured: Measured::Probability(path),
+                } => {
                     let probability = self.threshold(threshold, true)?;
                     simple(path, Question::ForAll(Threshold { comparison: *comparison, probability }))
                 }
@@ -61,9 +64,8 @@ impl Parser<'_> {
     /// The threshold that a constant is: a probability, or any number that is not negative.
     pub(super) fn threshold(&self, node: &Node, is_probability: bool) -> Result<Probability> {
         let written = self.text(node.span);
-        let failed = |error| {
-            self.error_at(node.span, ParseErrorKind::Threshold { error, found: written.to_owned() })
-        };
+        let failed =
+            |error| self.error_at(node.span, ParseErrorKind::Threshold { error, found: written.to_owned() });
         if let (NodeKind::Integer(_) | NodeKind::Decimal(_), true) = (&node.kind, is_probability) {
             let text = match &node.kind {
                 NodeKind::Integer(value) => value.to_string(),
@@ -72,11 +74,14 @@ impl Parser<'_> {
             };
             return Probability::parse(&text).map_err(failed);
         }
-        let exact = constant(node).and_then(Constant::number).ok_or_else(|| failed(ProbabilityError::NotDecimal))?;
+        let exact =
+            constant(node).and_then(Constant::number).ok_or_else(|| failed(ProbabilityError::NotDecimal))?;
         match is_probability {
             true => Probability::of_rational(exact).map_err(failed),
             // Only that it is a number is of interest here.
-            false if exact >= num_traits::Zero::zero() => Probability::of_rational(num_traits::Zero::zero()).map_err(failed),
+            false if exact >= num_traits::Zero::zero() => {
+                Probability::of_rational(num_traits::Zero::zero()).map_err(failed)
+            }
             false => Err(failed(ProbabilityError::Range)),
         }
     }
@@ -117,20 +122,24 @@ pub(crate) fn formula(node: &Node) -> Option<StateFormula> {
         NodeKind::Not(operand) => StateFormula::Not(boxed(operand)?),
         NodeKind::And(operands) => StateFormula::And(all(operands)?),
         NodeKind::Or(operands) => StateFormula::Or(all(operands)?),
-        NodeKind::Binary(BinaryOperator::Implies, left, right) => StateFormula::Implies(boxed(left)?, boxed(right)?),
+        NodeKind::Binary(BinaryOperator::Implies, left, right) => {
+            StateFormula::Implies(boxed(left)?, boxed(right)?)
+        }
         NodeKind::Binary(BinaryOperator::Iff, left, right) => StateFormula::Iff(boxed(left)?, boxed(right)?),
-        NodeKind::Binary(BinaryOperator::Compare(comparison), left, right) => compare(*comparison, left, right)?,
+        NodeKind::Binary(BinaryOperator::Compare(comparison), left, right) => {
+            compare(*comparison, left, right)?
+        }
         _ => return None,
     })
 }
 
 /// `=` and `!=` also compare formulas, and then mean `<=>` and its negation.
-fn compare(comparison: Comparison, left: &Node, right: &Node) -> Option<StateFormula> {
-    let is_equality = matches!(comparison, Comparison::Equal | Comparison::NotEqual);
+fn compare(comparison: Relation, left: &Node, right: &Node) -> Option<StateFormula> {
+    let is_equality = matches!(comparison, Relation::Equal | Relation::NotEqual);
     if is_equality && (is_formula(left) || is_formula(right)) {
         let (left, right) = (Box::new(formula(left)?), Box::new(formula(right)?));
         return Some(match comparison {
-            Comparison::Equal => StateFormula::Iff(left, right),
+            Relation::Equal => StateFormula::Iff(left, right),
             _ => StateFormula::Differ(left, right),
         });
     }
@@ -143,7 +152,9 @@ fn integer(node: &Node) -> Option<IntegerExpression> {
         NodeKind::Integer(value) => IntegerExpression::Literal(*value),
         NodeKind::Variable(name) => IntegerExpression::Variable(name.clone()),
         NodeKind::Negate(operand) => IntegerExpression::Negate(boxed(operand)?),
-        NodeKind::Binary(BinaryOperator::Add, left, right) => IntegerExpression::Add(boxed(left)?, boxed(right)?),
+        NodeKind::Binary(BinaryOperator::Add, left, right) => {
+            IntegerExpression::Add(boxed(left)?, boxed(right)?)
+        }
         NodeKind::Binary(BinaryOperator::Subtract, left, right) => {
             IntegerExpression::Subtract(boxed(left)?, boxed(right)?)
         }

@@ -1,7 +1,7 @@
 //! Expressions of PRISM's language, before it is known which are formulas and which are numbers.
 
 use super::parse_error::Span;
-use super::{Comparison, Optimum, ThresholdComparison};
+use super::{Optimum, Relation, ThresholdComparison};
 
 /// An expression and where it stands. Parentheses leave no trace.
 #[derive(Clone, Debug)]
@@ -44,7 +44,7 @@ pub(crate) enum NodeKind {
 pub(crate) enum BinaryOperator {
     Implies,
     Iff,
-    Compare(Comparison),
+    Compare(Relation),
     Add,
     Subtract,
     Multiply,
@@ -167,7 +167,12 @@ impl NodeKind {
     /// The expressions that this one is made of.
     pub(crate) fn children(&self) -> Vec<&Node> {
         match self {
-            Self::True | Self::False | Self::Integer(_) | Self::Decimal(_) | Self::Label(_) | Self::Variable(_) => vec![],
+            Self::True
+            | Self::False
+            | Self::Integer(_)
+            | Self::Decimal(_)
+            | Self::Label(_)
+            | Self::Variable(_) => vec![],
             Self::Not(operand) | Self::Negate(operand) => vec![operand],
             Self::And(operands) | Self::Or(operands) | Self::Call(_, operands) => operands.iter().collect(),
             Self::Binary(_, left, right) => vec![left, right],
@@ -182,9 +187,16 @@ impl NodeKind {
     /// The same, to be changed.
     pub(super) fn children_mut(&mut self) -> Vec<&mut Node> {
         match self {
-            Self::True | Self::False | Self::Integer(_) | Self::Decimal(_) | Self::Label(_) | Self::Variable(_) => vec![],
+            Self::True
+            | Self::False
+            | Self::Integer(_)
+            | Self::Decimal(_)
+            | Self::Label(_)
+            | Self::Variable(_) => vec![],
             Self::Not(operand) | Self::Negate(operand) => vec![operand],
-            Self::And(operands) | Self::Or(operands) | Self::Call(_, operands) => operands.iter_mut().collect(),
+            Self::And(operands) | Self::Or(operands) | Self::Call(_, operands) => {
+                operands.iter_mut().collect()
+            }
             Self::Binary(_, left, right) => vec![left, right],
             Self::Conditional(parts) => parts.iter_mut().collect(),
             Self::Temporal(_, bounds, operand) => bounds.nodes_mut().chain([&mut **operand]).collect(),

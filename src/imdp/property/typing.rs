@@ -3,10 +3,10 @@
 use super::constant::{Constant, constant};
 use super::parser::{Parser, Result};
 use super::tree::{
-    Asked, BinaryOperator, Filter, FilterOperator, Function, Measured, Node, NodeKind, Operator, RewardPath, StepBound,
-    StepBounds, Structure, TemporalOperator,
+    Asked, BinaryOperator, Filter, FilterOperator, Function, Measured, Node, NodeKind, Operator, RewardPath,
+    StepBound, StepBounds, Structure, TemporalOperator,
 };
-use super::{Comparison, ParseErrorKind, unsupported};
+use super::{ParseErrorKind, Relation, unsupported};
 use num_traits::ToPrimitive;
 
 /// What an expression is.
@@ -103,8 +103,8 @@ impl Parser<'_> {
     }
 
     /// `=` and `!=` also compare formulas.
-    fn comparison(&self, comparison: Comparison, left: &Node, right: &Node) -> Result<()> {
-        let is_equality = matches!(comparison, Comparison::Equal | Comparison::NotEqual);
+    fn comparison(&self, comparison: Relation, left: &Node, right: &Node) -> Result<()> {
+        let is_equality = matches!(comparison, Relation::Equal | Relation::NotEqual);
         if is_equality && [self.infer(left)?, self.infer(right)?].contains(&Type::Formula) {
             self.state_formula(left)?;
             return self.state_formula(right);

@@ -9,8 +9,10 @@ const NAMED: &str =
 const STATE: &str = "a state formula has labels, variables, numbers, ( ) ! & | => <=> = != < <= > >= + - * / ?: min max mod pow floor ceil round";
 
 pub(super) const NEXT_BOUND: ParseErrorKind = unsupported("step bounds on X are", PATH);
-pub(super) const BOUNDED_LTL: ParseErrorKind =
-    unsupported("step bounds on nested path formulas are", "write X that often, or bound the formula as a whole");
+pub(super) const BOUNDED_LTL: ParseErrorKind = unsupported(
+    "step bounds on nested path formulas are",
+    "write X that often, or bound the formula as a whole",
+);
 pub(super) const PATH_OUTSIDE: ParseErrorKind =
     unsupported("path formulas outside of P are", "put it into P…=? [ … ]");
 pub(super) const REWARD_PATH: ParseErrorKind =

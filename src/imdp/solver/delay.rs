@@ -3,12 +3,12 @@
 //! `left U[a,b] right` is `left` for `a` steps, and then `left U<=b-a right`. For the first `a` steps, a state in which
 //! `left` holds has the value of its best choice, and any other state has 0.
 
-use super::expectation::Side;
+use super::expectation::Bound;
 use super::options::Control;
 use super::query::Players;
 use super::range_optimum::RangeOptimum;
 use super::sweep::Sweep;
-use super::{Query, Solution, SolveError, SolverOptions, Status, ValueBounds, solve};
+use super::{Event, Solution, SolveError, SolverOptions, Status, ValueBounds, solve};
 use crate::model::{IntervalMdp, StateId, StateSet};
 use crate::property::Resolution;
 
@@ -25,7 +25,7 @@ pub fn solve_delayed(
 ) -> Result<Solution, SolveError> {
     let steps = last.map(|last| last.saturating_sub(first));
     let plain = SolverOptions { policy: false, evidence: false, ..*options };
-    let mut solution = solve(model, &Query::Until { safe, goal, steps }, resolution, &plain)?;
+    let mut solution = solve(model, &Event::Until { safe, goal, steps }, resolution, &plain)?;
     let players = Players::from(resolution);
     let moves = |&s: &StateId| safe.contains(s as usize) && !model.choices().ranges(s).is_empty();
     let states: Vec<StateId> = (0..model.num_states() as StateId).filter(moves).collect();
@@ -49,7 +49,7 @@ pub fn solve_delayed(
             open.for_each(|state| (lower[state], upper[state]) = (0.0, 1.0));
             return Ok(solution);
         }
-        for (values, side) in [(&mut *lower, Side::Lower), (&mut *upper, Side::Upper)] {
+        for (values, side) in [(&mut *lower, Bound::Lower), (&mut *upper, Bound::Upper)] {
             sweep.evaluate_rows(values, side, &mut table);
             sweep.evaluate_states(&table, &mut results);
             sweep.states.iter().zip(&results).for_each(|(&s, &value)| values[s as usize] = value);

@@ -45,7 +45,7 @@ pub(crate) use omega::{Acceptance, accepting_states};
 pub use options::{Control, SolverOptions, Status};
 pub use policy::{NO_CHOICE, Policy};
 pub use prune::{PruneError, Pruned};
-pub use query::{Query, SolveError};
+pub use query::{Event, SolveError};
 pub use reward::{RewardQuery, solve_rewards};
 pub use solution::{Solution, ValueBounds};
 
@@ -59,7 +59,7 @@ use crate::property::Resolution;
 /// is not an error but the [`Status`] of the solution.
 pub fn solve(
     model: &IntervalMdp,
-    query: &Query<'_>,
+    query: &Event<'_>,
     resolution: Resolution,
     options: &SolverOptions<'_>,
 ) -> Result<Solution, SolveError> {
@@ -70,10 +70,10 @@ pub fn solve(
     }
     let players = resolution.into();
     match *query {
-        Query::Next { goal } => bounded::next(model, goal, players, options),
-        Query::Until { safe, goal, steps: Some(steps) } => {
+        Event::Next { goal } => bounded::next(model, goal, players, options),
+        Event::Until { safe, goal, steps: Some(steps) } => {
             bounded::until(model, (safe, goal, steps), players, options)
         }
-        Query::Until { safe, goal, steps: None } => unbounded::until(model, safe, goal, players, options),
+        Event::Until { safe, goal, steps: None } => unbounded::until(model, safe, goal, players, options),
     }
 }

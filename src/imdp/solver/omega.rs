@@ -13,7 +13,7 @@
 //! is the value. Where no lower bound of an interval is 0, both kinds are the same.
 
 use super::graph::{certain, possible_within, stays, strong_components};
-use super::query::Optimum;
+use super::query::Direction;
 use crate::model::{IntervalMdp, RowId, StateId, StateSet};
 
 /// A condition on a run: what it must meet finitely and what infinitely often.
@@ -27,7 +27,7 @@ pub(crate) struct Acceptance {
 
 /// The states of all end components that satisfy one of the conditions; `helpful` says whether nature helps.
 pub(crate) fn accepting_states(model: &IntervalMdp, conditions: &[Acceptance], helpful: bool) -> StateSet {
-    let nature = if helpful { Optimum::Max } else { Optimum::Min };
+    let nature = if helpful { Direction::Max } else { Direction::Min };
     let mut all = StateSet::with_capacity(model.num_states());
     all.insert_range(..);
     let mut accepted = StateSet::with_capacity(model.num_states());
@@ -46,7 +46,7 @@ pub(crate) fn accepting_states(model: &IntervalMdp, conditions: &[Acceptance], h
 }
 
 /// The maximal end components within a set of states.
-fn end_components(model: &IntervalMdp, within: StateSet, nature: Optimum) -> Vec<StateSet> {
+fn end_components(model: &IntervalMdp, within: StateSet, nature: Direction) -> Vec<StateSet> {
     let (mut open, mut closed) = (vec![within], vec![]);
     while let Some(set) = open.pop() {
         if set.is_clear() {
@@ -62,7 +62,7 @@ fn end_components(model: &IntervalMdp, within: StateSet, nature: Optimum) -> Vec
 }
 
 /// The strong components of a set under the choices that stay in it, less states without such choices.
-fn split(model: &IntervalMdp, set: &StateSet, nature: Optimum) -> Vec<StateSet> {
+fn split(model: &IntervalMdp, set: &StateSet, nature: Direction) -> Vec<StateSet> {
     let inside = |s: StateId| set.contains(s as usize);
     let mut row_stays: Vec<Option<bool>> = vec![None; model.rows().len()];
     let mut stays_in = |row: RowId| {
@@ -87,8 +87,8 @@ fn split(model: &IntervalMdp, set: &StateSet, nature: Optimum) -> Vec<StateSet> 
                     continue;
                 }
                 let reached = match nature {
-                    Optimum::Min => certain(row, position),
-                    Optimum::Max => possible_within(row, position, |s| set.contains(s as usize)),
+                    Direction::Min => certain(row, position),
+                    Direction::Max => possible_within(row, position, |s| set.contains(s as usize)),
                 };
                 if reached {
                     out.push(successor);

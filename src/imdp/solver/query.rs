@@ -5,7 +5,7 @@ use crate::property::{QueryKind, Resolution};
 
 /// An event whose probability is wanted, for every initial state at once.
 #[derive(Clone, Copy, Debug)]
-pub enum Query<'a> {
+pub enum Event<'a> {
     /// `safe U goal`, or `safe U<=k goal`. A goal state counts whether it is safe or not.
     Until {
         /// The states allowed on the way.
@@ -22,7 +22,7 @@ pub enum Query<'a> {
     },
 }
 
-impl<'a> From<&'a QueryKind> for Query<'a> {
+impl<'a> From<&'a QueryKind> for Event<'a> {
     fn from(kind: &'a QueryKind) -> Self {
         match kind {
             QueryKind::Until { safe, goal, steps } => Self::Until { safe, goal, steps: *steps },
@@ -45,7 +45,9 @@ pub enum SolveError {
         states: usize,
     },
     /// Rewards are to be summed up for ever without a discount.
-    #[error("rewards without end may have no finite sum; bound the steps, as in C<=10, or discount them, as in C, discount=0.9")]
+    #[error(
+        "rewards without end may have no finite sum; bound the steps, as in C<=10, or discount them, as in C, discount=0.9"
+    )]
     Undiscounted,
     /// The wanted distance of the bounds is not a positive number.
     #[error("epsilon is {epsilon}; give a positive number, such as 1e-6")]
@@ -58,7 +60,7 @@ pub enum SolveError {
     Memory(#[from] MemoryError),
 }
 
-impl Query<'_> {
+impl Event<'_> {
     pub(super) fn check(&self, model: &IntervalMdp) -> Result<(), SolveError> {
         let states = model.num_states();
         let check = |what, set: &StateSet| match set.len() {
@@ -74,7 +76,7 @@ impl Query<'_> {
 
 /// Which way one of the two players pulls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Optimum {
+pub(super) enum Direction {
     Min,
     Max,
 }
@@ -82,13 +84,13 @@ pub(super) enum Optimum {
 /// The directions of both players.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Players {
-    pub policy: Optimum,
-    pub nature: Optimum,
+    pub policy: Direction,
+    pub nature: Direction,
 }
 
 impl From<Resolution> for Players {
     fn from(resolution: Resolution) -> Self {
-        use Optimum::{Max, Min};
+        use Direction::{Max, Min};
         let (policy, nature) = match resolution {
             Resolution::Pmaxmin => (Max, Min),
             Resolution::Pmaxmax => (Max, Max),
@@ -99,7 +101,7 @@ impl From<Resolution> for Players {
     }
 }
 
-impl Optimum {
+impl Direction {
     /// Whether `a` is strictly preferred to `b`.
     pub(super) fn prefers(self, a: f64, b: f64) -> bool {
         match self {

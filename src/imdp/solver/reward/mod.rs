@@ -65,7 +65,9 @@ pub fn solve_rewards(
             Err(SolveError::Length { what: "goal", found: goal.len(), states: model.num_states() })
         }
         RewardQuery::Reach(goal) => Ok(reach::reach(model, rewards, goal, players, options)),
-        RewardQuery::Cumulative { steps, discount } => steps::cumulative(model, rewards, (steps, discount), players, options),
+        RewardQuery::Cumulative { steps, discount } => {
+            steps::cumulative(model, rewards, (steps, discount), players, options)
+        }
         RewardQuery::Instantaneous(step) => Ok(steps::instantaneous(model, rewards, step, players, options)),
     }
 }

@@ -1,7 +1,7 @@
 //! One application of the Bellman operator with rewards.
 
-use super::super::expectation::{RowBlock, Side};
-use super::super::query::{Optimum, Players};
+use super::super::expectation::{Bound, RowBlock};
+use super::super::query::{Direction, Players};
 use super::costs;
 use crate::model::{IntervalMdp, RewardStructure, RowId, Rows, StateId};
 
@@ -76,7 +76,8 @@ impl Operator {
                 };
                 let cost = match rewards {
                     None => [1.0; 2],
-                    Some(rewards) => [Side::Lower, Side::Upper].map(|side| costs::of_choice(rewards, state, choice, side)),
+                    Some(rewards) => [Bound::Lower, Bound::Upper]
+                        .map(|side| costs::of_choice(rewards, state, choice, side)),
                 };
                 own.push(Choice { number, row: local, cost });
             }
@@ -90,11 +91,11 @@ impl Operator {
     pub(super) fn largest_cost(&self) -> f64 {
         let costs = self.choices.iter().flatten().map(|choice| choice.cost[1]).fold(0.0, f64::max);
         let branches = self.branches.iter().map(|(_, reward)| *reward).fold(0.0, f64::max);
-        costs::sum(costs, costs::written(branches, Side::Upper), Side::Upper)
+        costs::sum(costs, costs::written(branches, Bound::Upper), Bound::Upper)
     }
 
     /// `opt_a opt_p (r + γ p·V)` for every state in the order of [`Self::states`], and the choices that attain it.
-    pub(super) fn apply(&mut self, values: &[f64], discount: f64, side: Side) -> (Vec<f64>, Vec<u32>) {
+    pub(super) fn apply(&mut self, values: &[f64], discount: f64, side: Bound) -> (Vec<f64>, Vec<u32>) {
         let mut extended;
         let mut all = values;
         if !self.branches.is_empty() {
@@ -106,13 +107,13 @@ impl Operator {
             all = &extended;
         }
         let weights = self.block.evaluate(&self.rows, all, self.players.nature, side);
-        let maximises = self.players.policy == Optimum::Max;
+        let maximises = self.players.policy == Direction::Max;
         let (mut results, mut chosen) = (vec![], vec![]);
         for choices in &self.choices {
             let mut best: Option<(f64, u32)> = None;
             for choice in choices {
                 let weight = discounted(weights[choice.row as usize], discount, side);
-                let value = costs::sum(choice.cost[usize::from(side == Side::Upper)], weight, side);
+                let value = costs::sum(choice.cost[usize::from(side == Bound::Upper)], weight, side);
                 let better = best.is_none_or(|(old, _)| if maximises { value > old } else { value < old });
                 if better {
                     best = Some((value, choice.number));
@@ -127,13 +128,13 @@ impl Operator {
 }
 
 /// A value of the next step as it is worth today.
-pub(super) fn discounted(value: f64, discount: f64, side: Side) -> f64 {
+pub(super) fn discounted(value: f64, discount: f64, side: Bound) -> f64 {
     if discount == 1.0 || value == 0.0 {
         return value;
     }
     // The factor may be the double next to what was written.
     match side {
-        Side::Lower => (value * discount.next_down()).next_down().max(0.0),
-        Side::Upper => (value * discount.next_up()).next_up(),
+        Bound::Lower => (value * discount.next_down()).next_down().max(0.0),
+        Bound::Upper => (value * discount.next_up()).next_up(),
     }
 }

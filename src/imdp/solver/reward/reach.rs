@@ -1,10 +1,10 @@
 //! Expected rewards until a goal.
 
-use super::super::expectation::Side;
+use super::super::expectation::Bound;
 use super::super::graph::{stays, zero_one};
 use super::super::options::Control;
 use super::super::policy::NO_CHOICE;
-use super::super::query::{Optimum, Players};
+use super::super::query::{Direction, Players};
 use super::super::{Policy, Solution, SolverOptions, Status, ValueBounds};
 use super::operator::Operator;
 use crate::model::{IntervalMdp, RewardStructure, RowId, StateId, StateSet};
@@ -29,7 +29,7 @@ pub(super) fn reach(
     let finite = zero_one(model, goal, &moving, willing).certain;
     let inside = |s: StateId| finite.contains(s as usize);
     let usable: Vec<bool> = (0..model.rows().len() as RowId)
-        .map(|row| players.policy == Optimum::Max || stays(model.rows().row(row), willing.nature, inside))
+        .map(|row| players.policy == Direction::Max || stays(model.rows().row(row), willing.nature, inside))
         .collect();
     let usable = |row: RowId| usable[row as usize];
     let open: Vec<StateId> = finite.ones().filter(|&s| moving.contains(s)).map(|s| s as StateId).collect();
@@ -40,7 +40,7 @@ pub(super) fn reach(
         lower: vec![0.0; states],
         upper: vec![0.0; states],
         choices: vec![NO_CHOICE; states],
-        maximises: players.policy == Optimum::Max,
+        maximises: players.policy == Direction::Max,
         control: Control::new(options),
     };
     let status = iteration.run(options.epsilon);
@@ -120,7 +120,7 @@ impl Iteration<'_> {
             if let Some(reason) = self.control.stop() {
                 return Err(reason);
             }
-            let (results, chosen) = self.steps.apply(&steps, 1.0, Side::Upper);
+            let (results, chosen) = self.steps.apply(&steps, 1.0, Bound::Upper);
             let mut growth: f64 = 0.0;
             for ((&s, value), choice) in self.steps.states.iter().zip(results).zip(chosen) {
                 growth = growth.max(value - steps[s as usize]);
@@ -139,7 +139,7 @@ impl Iteration<'_> {
     /// One step from below and one from above; returns whether anything changed.
     fn sweep(&mut self) -> bool {
         let mut changed = false;
-        let (results, chosen) = self.operator.apply(&self.lower, 1.0, Side::Lower);
+        let (results, chosen) = self.operator.apply(&self.lower, 1.0, Bound::Lower);
         for (i, &s) in self.operator.states.iter().enumerate() {
             let value = &mut self.lower[s as usize];
             if results[i] > *value {
@@ -150,7 +150,7 @@ impl Iteration<'_> {
                 }
             }
         }
-        let (results, chosen) = self.operator.apply(&self.upper, 1.0, Side::Upper);
+        let (results, chosen) = self.operator.apply(&self.upper, 1.0, Bound::Upper);
         for (i, &s) in self.operator.states.iter().enumerate() {
             let value = &mut self.upper[s as usize];
             if results[i] < *value {
@@ -183,7 +183,7 @@ impl Iteration<'_> {
             let s = s as usize;
             candidate[s] = (self.lower[s] + margin * steps[s]).next_up();
         }
-        let (results, chosen) = self.operator.apply(&candidate, 1.0, Side::Upper);
+        let (results, chosen) = self.operator.apply(&candidate, 1.0, Bound::Upper);
         let mut jumped = false;
         if states.iter().zip(&results).all(|(&s, value)| *value < candidate[s as usize]) {
             for (i, &s) in states.iter().enumerate() {
@@ -202,7 +202,7 @@ impl Iteration<'_> {
             candidate[s] = (self.upper[s] - margin * steps[s]).max(self.lower[s]);
         }
         for _ in 0..REPAIRS {
-            let (results, chosen) = self.operator.apply(&candidate, 1.0, Side::Lower);
+            let (results, chosen) = self.operator.apply(&candidate, 1.0, Bound::Lower);
             let mut holds = true;
             for (&s, &value) in states.iter().zip(&results) {
                 let s = s as usize;

@@ -1,7 +1,7 @@
 //! Expected rewards of a number of steps, and discounted ones.
 
 use super::super::bounded::indicator;
-use super::super::expectation::Side;
+use super::super::expectation::Bound;
 use super::super::options::Control;
 use super::super::query::Players;
 use super::super::{Policy, Solution, SolveError, SolverOptions, Status, ValueBounds};
@@ -42,8 +42,8 @@ pub(super) fn cumulative(
             }
             break reason;
         }
-        let chosen = iteration.step(&mut lower, discount, Side::Lower);
-        iteration.step(&mut upper, discount, Side::Upper);
+        let chosen = iteration.step(&mut lower, discount, Bound::Lower);
+        iteration.step(&mut upper, discount, Bound::Upper);
         for (&s, choice) in iteration.operator.states.iter().zip(chosen) {
             if current[s as usize] != choice {
                 current[s as usize] = choice;
@@ -61,7 +61,13 @@ pub(super) fn cumulative(
         Some(steps) => Some(Policy::time_varying(steps, model.num_states(), &changes)),
         None => Some(Policy::stationary(&current)),
     };
-    Ok(Solution { values: ValueBounds { lower, upper }, status, iterations: control.iterations, policy, evidence: None })
+    Ok(Solution {
+        values: ValueBounds { lower, upper },
+        status,
+        iterations: control.iterations,
+        policy,
+        evidence: None,
+    })
 }
 
 /// The value of the reward of the state after so many steps.
@@ -74,7 +80,7 @@ pub(super) fn instantaneous(
 ) -> Solution {
     let mut iteration = Iteration::new(model, None, players);
     let values = |side| (0..model.num_states()).map(|s| costs::written(rewards.of_state(s), side)).collect();
-    let (mut lower, mut upper): (Vec<f64>, Vec<f64>) = (values(Side::Lower), values(Side::Upper));
+    let (mut lower, mut upper): (Vec<f64>, Vec<f64>) = (values(Bound::Lower), values(Bound::Upper));
     let mut control = Control::new(options);
     let mut status = Status::HorizonReached;
     while control.iterations < step {
@@ -84,11 +90,17 @@ pub(super) fn instantaneous(
             upper.fill(f64::INFINITY);
             break;
         }
-        iteration.step(&mut lower, 1.0, Side::Lower);
-        iteration.step(&mut upper, 1.0, Side::Upper);
+        iteration.step(&mut lower, 1.0, Bound::Lower);
+        iteration.step(&mut upper, 1.0, Bound::Upper);
         control.done(0.0);
     }
-    Solution { values: ValueBounds { lower, upper }, status, iterations: control.iterations, policy: None, evidence: None }
+    Solution {
+        values: ValueBounds { lower, upper },
+        status,
+        iterations: control.iterations,
+        policy: None,
+        evidence: None,
+    }
 }
 
 struct Iteration<'a> {
@@ -110,13 +122,11 @@ impl<'a> Iteration<'a> {
         let of_state = |s: StateId| {
             let earned = |side| match (rewards, model.choices().is_absorbing(s)) {
                 (None, _) => 0.0,
-                (Some(rewards), true) => {
-                    costs::of_choice(rewards, s, first_choices[s as usize], side)
-                }
+                (Some(rewards), true) => costs::of_choice(rewards, s, first_choices[s as usize], side),
                 // Without a choice only the state earns something.
                 (Some(rewards), false) => costs::written(rewards.of_state(s as usize), side),
             };
-            (s, [Side::Lower, Side::Upper].map(earned))
+            (s, [Bound::Lower, Bound::Upper].map(earned))
         };
         let staying = staying.into_iter().map(of_state).collect();
         Self { model, operator, staying }
@@ -133,11 +143,15 @@ impl<'a> Iteration<'a> {
     }
 
     /// One step; returns the choices made.
-    fn step(&mut self, values: &mut [f64], discount: f64, side: Side) -> Vec<u32> {
+    fn step(&mut self, values: &mut [f64], discount: f64, side: Bound) -> Vec<u32> {
         let (results, chosen) = self.operator.apply(values, discount, side);
         for (s, earned) in &self.staying {
             let value = &mut values[*s as usize];
-            *value = costs::sum(earned[usize::from(side == Side::Upper)], discounted(*value, discount, side), side);
+            *value = costs::sum(
+                earned[usize::from(side == Bound::Upper)],
+                discounted(*value, discount, side),
+                side,
+            );
         }
         self.operator.states.iter().zip(results).for_each(|(&s, value)| values[s as usize] = value);
         chosen
