@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// Which properties, and how they are read.
 #[derive(Clone, Debug, Default, Args)]
-pub struct QuestionArguments {
+pub(crate) struct QuestionArguments {
     /// Files of properties (.props, .pctl, .prctl). Default: the .props file of the model.
     #[arg(value_name = "PROPERTIES")]
     files: Vec<PathBuf>,
@@ -30,7 +30,7 @@ pub struct QuestionArguments {
 
 /// What nature does, as `--nature` names it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum NatureChoice {
+pub(crate) enum NatureChoice {
     /// It works against the policy: Pmax is Pmaxmin, as for Storm.
     Robust,
     /// It works with the policy: Pmax is Pmaxmax, as for PRISM.

@@ -24,7 +24,9 @@ pub enum EvaluationError {
     #[error("the product of model and automaton is no interval MDP: {0}; please report this")]
     Product(String),
     /// The model has no such reward structure.
-    #[error("the model has no reward structure {found}; its structures: {known}")]
+    #[error(
+        "the model has no reward structure {found}; its structures: {known} (.srew and .trew files beside a .tra file are read)"
+    )]
     UnknownRewards {
         /// What was asked for.
         found: String,

@@ -4,12 +4,17 @@ use super::expression::Evaluator;
 use super::{EvaluationError, Numbers};
 use crate::model::VariableValues;
 use crate::numeric::Rational;
-use crate::property::PropertyError;
+use crate::property::{PropertyError, numbers_states};
 
 impl Evaluator<'_> {
     /// The values of a variable; without any variables, `x` is the number of the state, as it is for PRISM.
     pub(super) fn variable(&self, name: &str) -> Result<Numbers, EvaluationError> {
         let integer = |value: i64| Rational::from_integer(value.into());
+        if numbers_states(name, self.model) {
+            let states = self.model.num_states();
+            self.require_numbers(states)?;
+            return Ok(Numbers::Exact((0..states as i64).map(integer).collect()));
+        }
         match self.model.variables().get(name).map(|variable| &variable.values) {
             Some(VariableValues::Int(values)) => {
                 self.require_numbers(values.len())?;

@@ -56,10 +56,7 @@ pub fn parse_document(text: &str, definitions: &mut Definitions) -> Vec<Entry> {
                 entries.push(Entry { name, text: written(), inquiry });
             }
             Err(error) => {
-                parser.recover();
-                if parser.position() == position {
-                    parser.advance();
-                }
+                parser.recover(position);
                 let end = parser.previous_end().max(start);
                 let text = text[start..end].split_whitespace().collect::<Vec<_>>().join(" ");
                 let text = text.trim_end_matches(';').trim_end().to_owned();

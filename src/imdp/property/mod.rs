@@ -68,6 +68,7 @@ pub use resolution::{Optimum, Resolution};
 pub use state_formula::{Relation, StateFormula};
 pub use threshold::{Probability, ProbabilityError, Threshold, ThresholdComparison, Verdict};
 
+pub(crate) use columns::numbers_states;
 pub(crate) use constant::{Constant, arithmetic, call, constant};
 pub(crate) use simple::{formula, is_formula};
 pub(crate) use tree::{

@@ -1,6 +1,7 @@
 //! Operands: numbers, variables, labels, and what stands in parentheses.
 
 use super::lexer::TokenKind;
+use super::parse_error::Span;
 use super::parser::{Parser, Result};
 use super::tree::{Filter, FilterOperator, Function, Node, NodeKind};
 use super::{ParseErrorKind, unsupported};
@@ -73,8 +74,9 @@ impl Parser<'_> {
     fn label(&mut self) -> Result<Node> {
         let start = self.span();
         let span = self.quoted().ok_or_else(|| self.unexpected("the name of a label and `\"`"))?;
-        let name = self.text(span).to_owned();
-        self.node(NodeKind::Label(name), start.to(span))
+        let name = self.text(span).trim().to_owned();
+        let span = Span { start: start.start, end: self.previous_end() };
+        self.node(NodeKind::Label(name), span)
     }
 
     /// `min(a,b,…)` and its like; `func(min,a,b)` is the same.

@@ -158,11 +158,11 @@ impl<'a> Parser<'a> {
         self.next
     }
 
-    /// Skips what is left of a broken item: up to behind the next `;`, or to what looks like the next item at the
-    /// beginning of a line.
-    pub(super) fn recover(&mut self) {
+    /// Skips what is left of a broken item that began at token `first`: up to behind the next `;`, or to what looks like
+    /// the next item at the beginning of a line.
+    pub(super) fn recover(&mut self, first: usize) {
         self.nesting = 0;
-        loop {
+        while self.next == first || !self.begins_item() {
             match self.peek() {
                 TokenKind::End => return,
                 TokenKind::Symbol(";") => {
@@ -171,20 +171,22 @@ impl<'a> Parser<'a> {
                 }
                 _ => self.advance(),
             }
-            let before = &self.source[..self.span().start];
-            let line = before.rsplit('\n').next().unwrap_or_default();
-            let starts = match self.peek() {
-                TokenKind::Word(word) => {
-                    matches!(word, "const" | "label" | "formula" | "filter")
-                        || (word.starts_with(['P', 'R']) && (word.len() == 1 || word[1..].starts_with("m")))
-                }
-                TokenKind::Symbol(symbol) => symbol == "\"" || symbol == "(",
-                _ => false,
-            };
-            if starts && line.trim().is_empty() && before.contains('\n') {
-                return;
-            }
         }
+    }
+
+    /// Whether the next token is the first of its line and looks like the beginning of a definition or a property.
+    fn begins_item(&self) -> bool {
+        let before = &self.source[..self.span().start];
+        let line = before.rsplit('\n').next().unwrap_or_default();
+        let fits = match self.peek() {
+            TokenKind::Word("const" | "label" | "formula" | "filter") => true,
+            TokenKind::Word(word) => {
+                word.starts_with(['P', 'R']) && (word.len() == 1 || word[1..].starts_with('m'))
+            }
+            TokenKind::Symbol(symbol) => symbol == "\"" || symbol == "(",
+            _ => false,
+        };
+        fits && line.trim().is_empty() && before.contains('\n')
     }
 
     /// An error about an expression of the wrong kind.

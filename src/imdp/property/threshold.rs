@@ -226,7 +226,10 @@ fn written(exact: &Rational) -> String {
     while rest > BigInt::one() && places < MAX_DIGITS {
         let common = common_divisor(&rest, &BigInt::from(10));
         if common.is_one() {
-            return exact.to_string();
+            // Integers are limited, decimals are not.
+            let part =
+                |n: &BigInt| if *n > BigInt::from(i32::MAX) { format!("{n}.0") } else { n.to_string() };
+            return format!("{}/{}", part(exact.numer()), part(exact.denom()));
         }
         rest /= common;
         places += 1;
