@@ -81,3 +81,6 @@ impl Evaluation {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

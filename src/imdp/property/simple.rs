@@ -74,6 +74,7 @@ impl Parser<'_> {
             };
             return Probability::parse(&text).map_err(failed);
         }
+        self.no_constant_without_value(node)?;
         let exact =
             constant(node).and_then(Constant::number).ok_or_else(|| failed(ProbabilityError::NotDecimal))?;
         match is_probability {

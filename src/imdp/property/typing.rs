@@ -231,9 +231,18 @@ impl Parser<'_> {
         match steps.filter(|steps| *steps >= u64::from(least) && i32::try_from(*steps).is_ok()) {
             Some(steps) => Ok(steps),
             None => {
+                self.no_constant_without_value(node)?;
                 let found = self.text(node.span).to_owned();
                 Err(self.error_at(node.span, ParseErrorKind::Steps { least, found }))
             }
         }
+    }
+
+    /// What is left of names in a number that must be known is a constant nobody defines.
+    pub(super) fn no_constant_without_value(&self, node: &Node) -> Result<()> {
+        if let NodeKind::Variable(name) = &node.kind {
+            return Err(self.error_at(node.span, ParseErrorKind::Undefined { name: name.clone() }));
+        }
+        node.kind.children().into_iter().try_for_each(|child| self.no_constant_without_value(child))
     }
 }
