@@ -53,6 +53,11 @@ impl Asked {
 }
 
 impl QuestionArguments {
+    /// Whether nothing is asked but what belongs to the model.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.files.is_empty() && self.properties.is_empty()
+    }
+
     /// What nature does where a property does not say it.
     pub(crate) fn nature(&self) -> Option<Nature> {
         self.nature.map(|nature| match nature {

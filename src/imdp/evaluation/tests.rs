@@ -29,7 +29,8 @@ fn compound(text: &str) -> Compound {
     match parse_inquiry(text, &Definitions::default()).unwrap_or_else(|error| panic!("{error}")) {
         Inquiry::Compound(compound) => compound,
         // A single probability is an expression as well, once it is no property any more.
-        Inquiry::Probability(_) => compound(&format!("1*({text})")),
+        Inquiry::Probability(_) if text.contains('?') => compound(&format!("1*({text})")),
+        Inquiry::Probability(_) => compound(&format!("({text}) & true")),
     }
 }
 
@@ -42,7 +43,7 @@ fn evaluate(text: &str) -> Evaluation {
 fn numbers_have_their_values() {
     for (text, state, value) in [
         ("R{\"time\"}minmax=? [ F \"goal2\" ]", 4, 5.0 / 3.0),
-        ("R{1}minmin=? [ F \"goal2\" ]", 0, 1.0 + 0.05 + 0.05 * 5.0 / 3.0),
+        ("R{1}minmin=? [ F \"goal2\" ]", 0, 1.1 + 0.05 * 5.0 / 3.0),
         ("Rminmax=? [ F \"goal2\" ]", 6, 4.0),
         ("Rminmin=? [ F \"goal2\" ]", 6, 2.0),
         // Waiting earns nothing, but never arrives.
@@ -71,7 +72,7 @@ fn numbers_have_their_values() {
         ("Pmaxmax=? [ F[2,3] \"goal2\" ]", 6, 0.875),
         ("Pminmin=? [ G[1,2] s!=2 ]", 5, 0.01),
         ("Pmaxmin=? [ F>=2 s=4 ]", 5, 1.0),
-        ("Pmaxmin=? [ F P>=0.8 [ X \"goal2\" ] ]", 0, 0.85),
+        ("Pmaxmin=? [ F<=1 P>=0.8 [ X \"goal2\" ] ]", 0, 0.75),
         ("filter(min, Pmaxmin=? [ F \"goal1\" ], s=0|s=4)", 2, 0.5),
         ("filter(sum, s, s>2)", 0, 18.0),
         ("filter(avg, s*1.0, s<=1)", 0, 0.5),
@@ -102,7 +103,7 @@ fn formulas_hold_where_they_should() {
         ("P>=0.8 [ X \"goal2\" ]", &[2, 3][..]),
         ("P>=0.5 [ X \"goal2\" ] | \"hazard\"", &[1, 2, 3]),
         ("R{\"time\"}<=2 [ F \"goal2\" ]", &[2, 3]),
-        ("!(P<1 [ F \"goal2\" ]) & s<=1", &[]),
+        ("!(P<1 [ F \"goal2\" ]) & s<=1", &[0, 1]),
         ("(Pmaxmin=? [ F \"goal1\" ]) = 1", &[4, 5]),
         ("filter(exists, P>=1 [ X \"goal2\" ], s>1)", &[0, 1, 2, 3, 4, 5, 6]),
         ("filter(forall, P>=1 [ X \"goal2\" ], s>1)", &[]),
