@@ -29,6 +29,7 @@ mod reliability;
 mod report;
 mod riccati;
 mod simulate;
+mod solution;
 mod solver;
 mod steering;
 mod values;

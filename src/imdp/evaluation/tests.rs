@@ -63,7 +63,7 @@ fn numbers_have_their_values() {
         ("Pminmin=? [ !((G !\"hazard\") & (G F \"goal1\")) ]", 0, 0.85),
         ("Pmaxmin=? [ F G \"goal2\" ]", 0, 1.0),
         ("Pminmin=? [ F G !\"goal1\" ]", 4, 0.0),
-        ("Pmaxmin=? [ X X \"goal2\" ]", 4, 0.84),
+        ("Pmaxmin=? [ X X \"goal2\" ]", 4, 0.9),
         ("Pmaxmin=? [ X F \"goal1\" ]", 0, 0.5),
         ("Pmaxmin=? [ (F \"goal1\") & (F \"goal2\") ]", 4, 1.0),
         ("Pmaxmin=? [ !\"goal2\" W \"goal1\" ]", 4, 1.0),

@@ -67,6 +67,7 @@ pub(super) fn cumulative(
         iterations: control.iterations,
         policy,
         evidence: None,
+        history: None,
     })
 }
 
@@ -100,6 +101,7 @@ pub(super) fn instantaneous(
         iterations: control.iterations,
         policy: None,
         evidence: None,
+        history: None,
     }
 }
 
