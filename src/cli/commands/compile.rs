@@ -220,7 +220,7 @@ fn solve(
     let answer = LimitArguments::default()
         .with_options(bars, |options| Answer::new(model, property, &solution_options(problem, options)));
     let answer = answer.map_err(|error| CliError::Input(format!("{property}: {error}")))?;
-    let result = PropertyResult::new(property, &answer, start.elapsed());
+    let result = PropertyResult::new(property, &answer, model, start.elapsed());
     Ok((answer, result))
 }
 

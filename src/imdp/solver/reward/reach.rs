@@ -54,7 +54,7 @@ pub(super) fn reach(
         iterations: control.iterations,
         policy: options.policy.then(|| Policy::stationary(&choices)),
         evidence: None,
-        history: None,
+        history: vec![],
     }
 }
 

@@ -67,7 +67,7 @@ pub(super) fn cumulative(
         iterations: control.iterations,
         policy,
         evidence: None,
-        history: None,
+        history: vec![],
     })
 }
 
@@ -101,7 +101,7 @@ pub(super) fn instantaneous(
         iterations: control.iterations,
         policy: None,
         evidence: None,
-        history: None,
+        history: vec![],
     }
 }
 
