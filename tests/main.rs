@@ -25,6 +25,7 @@ mod report;
 mod riccati;
 mod simulate;
 mod solver;
+mod soundness;
 mod steering;
 mod values;
 mod verify;

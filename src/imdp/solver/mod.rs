@@ -31,6 +31,7 @@ mod policy;
 mod prune;
 mod query;
 mod range_optimum;
+mod slow;
 mod solution;
 mod sweep;
 mod unbounded;

@@ -61,6 +61,7 @@
 //! exactly to the double next to it on the side to be proved and then compared with the bounds of all
 //! states that share it: bounds are doubles, so nothing is lost.
 
+mod bounds;
 mod check;
 mod extremum;
 mod one_step;

@@ -188,11 +188,11 @@ impl Body<'_> {
             return Err(cursor.fault_here("` : ` and an interval"));
         }
         let interval_at = cursor.offset();
-        let (lower, upper) = read_interval(cursor, b" ")?;
+        let interval = read_interval(cursor, b" ")?;
         self.written.extend_from_slice(cursor.since(interval_at));
         self.written.push(b'\n');
         self.lines_of_row.push(line);
-        self.row.push(successor as StateId, lower, upper);
+        self.row.push(successor as StateId, interval);
         cursor.line_end("the end of the line")
     }
 
@@ -216,7 +216,7 @@ impl Body<'_> {
                 Fault::new(line, 1, RowFault::ONCE, describe(successor.to_string().as_bytes()))
             }
         })?;
-        if judgement == Judgement::Widened {
+        if judgement != Judgement::FINE {
             self.widened.get_or_insert((0, choice.line + 1)).0 += 1;
         }
         self.row.clear();

@@ -13,16 +13,16 @@ mod row_table;
 mod text;
 mod variables;
 
-pub(in crate::formats) use assembly::{Assembly, AssemblyError, Expected, Transitions};
-pub(in crate::formats) use bounds::{Judgement, written_bounds};
-pub(in crate::formats) use error::Fault;
+pub(crate) use assembly::{Assembly, AssemblyError, Expected, Transitions};
+pub(crate) use bounds::{Judgement, written_bounds};
+pub(crate) use error::Fault;
 pub use error::{ImportError, Place, Position, Warning};
-pub(in crate::formats) use interval::read_interval;
-pub(in crate::formats) use lines::Lines;
-pub(in crate::formats) use pending_row::{PendingRow, RowFault};
-pub(in crate::formats) use row_table::hash_row;
-pub(in crate::formats) use text::{Cursor, counted, describe};
-pub(in crate::formats) use variables::read_variable_value;
+pub(crate) use interval::{Interval, read_interval};
+pub(crate) use lines::Lines;
+pub(crate) use pending_row::{PendingRow, RowFault};
+pub(crate) use row_table::hash_row;
+pub(crate) use text::{Cursor, counted, describe};
+pub(crate) use variables::read_variable_value;
 
 use crate::model::IntervalMdp;
 
