@@ -20,9 +20,6 @@ use crate::model::{IntervalMdp, RowId, StateId, StateSet};
 /// Raises of a refuted guess are multiplied by powers of 8 up to this one: 8⁸ is 1.7·10⁷.
 const LEAPS: i32 = 8;
 
-/// After so many sweeps it is time for linear equations.
-const PATIENCE: u64 = 256;
-
 /// So many multiplications are worth a try in any case.
 const LEAST_BUDGET: u64 = 5_000_000;
 
@@ -44,6 +41,8 @@ pub(super) struct Shared<'a> {
     /// Bounds that are no doubles; those in `lower` and `upper` are rounded to the safe side.
     pub precise_lower: Precise,
     pub precise_upper: Precise,
+    /// After so many sweeps it is time for linear equations.
+    pub patience: u64,
     /// The rows of the component being solved.
     pub own_rows: StateSet,
 }
@@ -77,7 +76,7 @@ impl<'s, 'a> Component<'s, 'a> {
         let mut margin = share;
         let (mut rate, mut previous) = (0.0, 0.0);
         let (mut next_guess, mut next_jump) = (1, 8);
-        let mut next_strategies = PATIENCE;
+        let mut next_strategies = self.shared.patience;
         let entries: usize = self.sweep.rows().map(|row| self.shared.model.rows().row_len(row)).sum();
         for sweeps in 1u64.. {
             if let Some(reason) = control.stop() {
@@ -104,7 +103,7 @@ impl<'s, 'a> Component<'s, 'a> {
                 }
             }
             if change == 0.0 || sweeps >= next_strategies {
-                next_strategies = 16 * sweeps.max(PATIENCE);
+                next_strategies = sweeps.max(self.shared.patience).saturating_mul(16);
                 // As much work as all sweeps so far.
                 let budget = LEAST_BUDGET.max(2 * sweeps * entries as u64);
                 if self.solve_by_strategies(share, budget, control) {

@@ -20,6 +20,9 @@ use crate::certificate::{Evidence, Inductive};
 use crate::exact::Replaced;
 use crate::model::{IntervalMdp, RowId, StateId, StateSet, require_memory};
 
+/// Sweeps of a cyclic part before it is given to linear equations.
+const PATIENCE: u64 = 256;
+
 /// The value of `safe U goal`.
 pub(super) fn until(
     model: &IntervalMdp,
@@ -27,6 +30,17 @@ pub(super) fn until(
     goal: &StateSet,
     players: Players,
     options: &SolverOptions<'_>,
+) -> Result<Solution, SolveError> {
+    until_with_patience(model, (safe, goal), players, options, PATIENCE)
+}
+
+/// The same, with another number of sweeps before linear equations.
+pub(super) fn until_with_patience(
+    model: &IntervalMdp,
+    (safe, goal): (&StateSet, &StateSet),
+    players: Players,
+    options: &SolverOptions<'_>,
+    patience: u64,
 ) -> Result<Solution, SolveError> {
     let states = model.num_states();
     let rows = model.rows().len();
@@ -52,6 +66,7 @@ pub(super) fn until(
         wants_policy: options.policy || options.evidence,
         precise_lower: Precise::new(),
         precise_upper: Precise::new(),
+        patience,
         own_rows: StateSet::with_capacity(rows),
     };
     // Every cyclic part may add its share to the distance of the bounds of what it depends on.

@@ -10,6 +10,7 @@ use super::super::query::Optimum;
 use super::elimination::{Elimination, Process};
 use super::fixed::ONE;
 use super::fixed_row::FixedRow;
+use std::collections::VecDeque;
 
 /// Advantages of so few units are no reason to change a strategy.
 const TOLERANCE: u128 = 16;
@@ -19,6 +20,9 @@ const RESIDUAL: u128 = 4;
 
 /// Refinements of a solution, each worth about ten digits.
 const REFINEMENTS: usize = 8;
+
+/// Few rounds are needed as a rule; there could be as many as strategies.
+const ROUNDS: usize = 1000;
 
 /// A state, or an end component that is one for the side that can move in it at will.
 #[derive(Debug)]
@@ -58,8 +62,7 @@ impl Game {
     /// Optimal strategies and their values, those of the outside at the end; `None` if there is no way to find them.
     pub(super) fn solve(&self, stop: &dyn Fn() -> bool) -> Option<(Strategy, Vec<u128>)> {
         let mut strategy = self.ways_out()?;
-        // Few rounds are needed as a rule; there could be as many as strategies.
-        for _ in 0..1000 {
+        for _ in 0..ROUNDS {
             if stop() {
                 return None;
             }
@@ -88,12 +91,14 @@ impl Game {
         for (id, row) in (0..).zip(&self.rows) {
             row.targets.iter().for_each(|&target| predecessors[target as usize].push(id));
         }
-        // Who is found earlier is closer to the outside, which maximising sides prefer.
+        // Who is found earlier is closer to where there is something to be had: maximising sides go there, minimising
+        // ones go the other way.
         let mut closeness: Vec<u128> = vec![0; nodes + self.outside.len()];
         let mut choices: Vec<u32> = self.nodes.iter().map(|node| node.options.first().copied()).collect::<Option<_>>()?;
         let mut done = vec![false; self.rows.len()];
         let mut next = ONE;
-        let mut work: std::collections::VecDeque<u32> = (nodes..closeness.len()).map(|i| i as u32).collect();
+        let promising = (nodes..).zip(&self.outside).filter(|(_, value)| **value > 0);
+        let mut work: VecDeque<u32> = promising.map(|(i, _)| i as u32).collect();
         work.iter().for_each(|&i| closeness[i as usize] = ONE);
         while let Some(target) = work.pop_front() {
             for &id in &predecessors[target as usize] {
@@ -121,23 +126,37 @@ impl Game {
         closeness[..nodes].iter().all(|&c| c > 0).then_some(Strategy { choices, masses })
     }
 
-    /// The values under a strategy: `x = P x ± offset` within nodes, up to [`RESIDUAL`].
+    /// The values under a strategy: `x = P x ± offset` within nodes, up to [`RESIDUAL`], but never less than 0.
     fn evaluate(&self, strategy: &Strategy) -> Option<Vec<u128>> {
         let nodes = self.nodes.len();
-        let equations = Elimination::new(self.process(strategy), self.budget)?;
-        let mut values = vec![0; nodes];
-        values.extend(&self.outside);
-        for _ in 0..=REFINEMENTS {
-            let residual: Vec<i128> = (0..nodes).map(|i| self.residual(i, strategy, &values)).collect();
-            if residual.iter().all(|r| r.unsigned_abs() <= RESIDUAL) {
-                return Some(values);
-            }
-            let correction = equations.solve(residual.iter().map(|&r| r as f64).collect());
-            for (value, change) in values.iter_mut().zip(correction) {
-                if change.is_nan() || change.abs() > 2.0 * ONE as f64 {
-                    return None;
+        // Where the offsets eat up everything, 0 is a lower bound: such nodes count as outside.
+        let mut lost = vec![false; nodes];
+        for _ in 0..ROUNDS {
+            let equations = Elimination::new(self.process(strategy, &lost), self.budget)?;
+            let mut values = vec![0; nodes];
+            values.extend(&self.outside);
+            let before = lost.clone();
+            for _ in 0..=REFINEMENTS {
+                let residual: Vec<i128> =
+                    (0..nodes).map(|i| if lost[i] { 0 } else { self.residual(i, strategy, &values) }).collect();
+                if residual.iter().all(|r| r.unsigned_abs() <= RESIDUAL) {
+                    return Some(values);
                 }
-                *value = (*value as i128 + change as i128).clamp(0, 2 * ONE as i128) as u128;
+                let correction = equations.solve(residual.iter().map(|&r| r as f64).collect());
+                for (i, change) in correction.into_iter().enumerate().filter(|(i, _)| !before[*i]) {
+                    if change.is_nan() || change > 2.0 * ONE as f64 {
+                        return None;
+                    }
+                    let value = values[i] as i128 + change.max(-2.0 * ONE as f64) as i128;
+                    lost[i] |= value < 0;
+                    values[i] = value.clamp(0, 2 * ONE as i128) as u128;
+                }
+                if lost != before {
+                    break;
+                }
+            }
+            if lost == before {
+                return None;
             }
         }
         None
@@ -148,21 +167,19 @@ impl Game {
         let row = strategy.choices[node] as usize;
         let sum = self.rows[row].expectation(&strategy.masses[row], values).floor() as i128;
         let offset = self.nodes[node].offset as i128;
-        let missing = if self.raised { sum + offset } else { sum - offset } - values[node] as i128;
-        // Nothing is less than 0.
-        if values[node] == 0 { missing.max(0) } else { missing }
+        if self.raised { sum + offset - values[node] as i128 } else { sum - offset - values[node] as i128 }
     }
 
-    fn process(&self, strategy: &Strategy) -> Process<f64> {
+    fn process(&self, strategy: &Strategy, lost: &[bool]) -> Process<f64> {
         let mut process = Process { rows: vec![], exits: vec![] };
-        for &id in &strategy.choices {
+        for (&id, &is_lost) in strategy.choices.iter().zip(lost) {
             let (row, masses) = (&self.rows[id as usize], &strategy.masses[id as usize]);
             let (mut entries, mut exit): (Vec<(u32, u128)>, u128) = (vec![], 0);
             for (&target, &mass) in row.targets.iter().zip(masses) {
-                if (target as usize) < self.nodes.len() {
-                    entries.push((target, mass));
-                } else {
+                if is_lost || lost.get(target as usize).is_none_or(|&lost| lost) {
                     exit += mass;
+                } else {
+                    entries.push((target, mass));
                 }
             }
             entries.sort_unstable();

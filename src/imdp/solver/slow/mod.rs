@@ -15,6 +15,8 @@ mod fixed;
 mod fixed_row;
 mod game;
 mod part;
+#[cfg(test)]
+mod tests;
 
 pub(super) use fixed::to_rational;
 
