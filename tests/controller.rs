@@ -1,16 +1,15 @@
 //! The controller: the policy's, in U, at its targets, and the same in every form it is written in.
 use crate::common::controllers::Loop;
-use crate::common::{problem, shipped_models};
+use crate::common::shipped_models;
 use dynabs::controller::export::{c_source, write_csv, write_json};
 use dynabs::controller::{Controller, Decision, InputCheck, Noise, Simulation};
-use dynabs::model_file::{GaussianSpec, NoiseSource, NoiseSpec};
 use dynabs::partition::{CellId, CellKind};
+use dynabs::problem::GaussianNoise;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
 use std::process::{Command, Stdio};
 
 const UNBOUNDED: &str = r#"/task/horizon="infinite""#;
@@ -26,7 +25,7 @@ fn it_does_what_the_policy_says() {
     {
         let Loop { problem, abstraction, answer, controller } = Loop::of(model, sets);
         let policy = answer.solution.policy.unwrap();
-        for (cell, kind) in problem.labels.iter() {
+        for (cell, kind) in problem.labels().iter() {
             let state = abstraction.state_of_cell[cell.index()];
             for k in 0..steps(&controller) {
                 let expected = match kind {
@@ -40,9 +39,8 @@ fn it_does_what_the_policy_says() {
                 assert_eq!(controller.decide_in(cell, k), expected, "{model}, cell {}, step {k}", cell.0);
             }
         }
-        let over = controller
-            .horizon()
-            .map(|horizon| controller.decide(problem.initial_state.as_ref().unwrap(), horizon));
+        let over =
+            controller.horizon().map(|horizon| controller.decide(problem.initial_state().unwrap(), horizon));
         assert!(over.is_none_or(|decision| decision == Decision::Over));
     }
 }
@@ -52,7 +50,7 @@ fn inputs_are_in_u_from_random_states() {
     for (seed, model) in (1..).zip(shipped_models()) {
         let closed = Loop::of(&model, &[]);
         let controller = &closed.controller;
-        let check = InputCheck::new(&closed.problem.step_input);
+        let check = InputCheck::new(closed.problem.step_input());
         let mut rng = ChaCha12Rng::seed_from_u64(seed);
         let mut u = vec![0.0; controller.inputs()];
         let mut steered = 0;
@@ -77,21 +75,19 @@ fn every_group_of_steps_ends_at_its_target() {
     for model in shipped_models() {
         let closed = Loop::of(&model, &[]);
         let problem = &closed.problem;
-        let n = problem.grid.dimension();
-        let still = GaussianSpec { mean: None, covariance: vec![vec![0.0; n]; n] };
-        let spec = NoiseSpec { samples: None, gaussian: Some(still), count: Some(1), seed: None };
-        let still =
-            NoiseSource::new(Path::new(""), &spec, &problem.step_system, problem.group_steps).unwrap();
-        let samples = problem.noise.samples.clone();
+        let n = problem.grid().dimension();
+        let still = GaussianNoise { mean: None, covariance: vec![vec![0.0; n]; n] };
+        let still = Noise::Gaussian(still.distribution(n).unwrap());
+        let samples = problem.noise().samples.clone();
         let noises = [
-            (Noise::of(&still), vec![vec![0.0; n]]),
+            (still, vec![vec![0.0; n]]),
             (Noise::GroupedSamples(samples.clone()), samples.iter().map(<[f64]>::to_vec).collect()),
         ];
         for (noise, possible) in noises {
             let simulation = Simulation::new(problem, &closed.controller, noise, 0);
             let mut groups = 0;
             for run in 0..20 {
-                let trajectory = simulation.trajectory(problem.initial_state.as_ref().unwrap(), 3, run);
+                let trajectory = simulation.trajectory(problem.initial_state().unwrap(), 3, run);
                 let instants: Vec<_> =
                     trajectory.steps.iter().filter(|step| step.decision.is_some()).collect();
                 for pair in instants.windows(2) {
@@ -160,7 +156,7 @@ fn json_says_everything() {
 #[test]
 fn csv_covers_every_step_once() {
     let closed = Loop::of("double_integrator", &[]);
-    let (controller, grid) = (&closed.controller, &closed.problem.grid);
+    let (controller, grid) = (&closed.controller, closed.problem.grid());
     let mut bytes = vec![];
     write_csv(controller, grid, &mut bytes).unwrap();
     let text = String::from_utf8(bytes).unwrap();
@@ -232,7 +228,7 @@ fn compare_with_c(compiler: &str, closed: &Loop, seed: u64) {
     let controller = &closed.controller;
     let scratch = tempfile::TempDir::new().unwrap();
     let source = c_source(controller, &closed.problem, "controller.c").unwrap();
-    let name = closed.problem.name.to_lowercase();
+    let name = closed.problem.name().to_lowercase();
     let harness = HARNESS.replace("PREFIX", &name.to_uppercase()).replace("prefix", &name);
     fs::write(scratch.path().join("controller.c"), source).unwrap();
     fs::write(scratch.path().join("main.c"), harness).unwrap();
@@ -304,9 +300,7 @@ fn c_code_equals_the_library() {
 
 #[test]
 fn a_horizon_beyond_c_is_refused() {
-    let mut problem = problem("room_temperature", &[]).unwrap();
-    problem.horizon = Some(1 << 40);
-    let closed = Loop::new(problem);
+    let closed = Loop::of("room_temperature", &["/task/horizon=1099511627776"]);
     assert!(
         c_source(&closed.controller, &closed.problem, "c.c")
             .unwrap_err()

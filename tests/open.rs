@@ -1,7 +1,6 @@
 //! A run directory opened again: it says what was compiled, or why it cannot be believed.
 use crate::common::{document, shipped_models};
 use dynabs::abstraction::compile;
-use dynabs::model_file::Problem;
 use dynabs::run::{Manifest, OpenError, Run, WriteOptions, write_run};
 use imdp::solver::SolverOptions;
 use std::fs;
@@ -10,7 +9,7 @@ use tempfile::TempDir;
 
 fn write(directory: &Path, model: &str, sets: &[String]) {
     let document = document(model, sets);
-    let problem = Problem::from_document(&document).unwrap();
+    let problem = document.problem().unwrap();
     let abstraction = compile(&problem, &()).unwrap();
     let manifest = Manifest::new(&document, "", &problem, &abstraction);
     let options = WriteOptions { force: true, ..WriteOptions::default() };

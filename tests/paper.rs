@@ -1,8 +1,8 @@
 //! The published numbers of the method: Table I and the spacecraft of ECC 2024.
 use crate::common::{abstraction, data, problem, reference_mode, table_one_row};
 use dynabs::abstraction::{Targets, enabled_actions};
-use dynabs::model_file::Problem;
 use dynabs::partition::{CellId, CellKind};
+use dynabs::problem::{Actions, Problem};
 use dynabs::statistics::ReferenceIntervals;
 use dynabs::system::{Extent, FeedbackLaw};
 
@@ -24,7 +24,8 @@ fn table_one_has_the_published_sizes() {
 #[test]
 fn the_gain_is_the_published_one() {
     let table = data("table1.json");
-    let stabilizer = problem("double_integrator_two_layer", &[]).unwrap().stabilizer.unwrap();
+    let problem = problem("double_integrator_two_layer", &[]).unwrap();
+    let stabilizer = problem.stabilizer().unwrap();
     let gain = stabilizer.layers.gain().to_f64();
     for (i, row) in table["lqr"]["gain_rounded_to_5_decimals"].as_array().unwrap().iter().enumerate() {
         for (j, expected) in row.as_array().unwrap().iter().enumerate() {
@@ -83,17 +84,18 @@ fn printed_intervals_are_the_published_ones() {
 
 /// The number of transitions in `reference` mode if every steering constraint had this much more room.
 fn transitions_with_margin(problem: &Problem, margin: f64) -> u64 {
-    let targets = Targets::new(&problem.targets, &problem.grid);
-    let layers = problem.stabilizer.as_ref().map(|s| &s.layers);
-    let law = FeedbackLaw::new(&problem.system, layers).unwrap();
-    let extent = Extent { state: problem.grid.magnitudes(), target: targets.magnitudes() };
-    let mut constraints = law.constraints(&problem.input, layers.map(|l| l.abstract_input()), &extent);
+    let Actions::Targets(points) = problem.actions();
+    let targets = Targets::new(points, problem.grid());
+    let layers = problem.stabilizer().map(|s| &s.layers);
+    let law = FeedbackLaw::new(problem.system(), layers).unwrap();
+    let extent = Extent { state: problem.grid().magnitudes(), target: targets.magnitudes() };
+    let mut constraints = law.constraints(problem.input(), layers.map(|l| l.abstract_input()), &extent);
     constraints.iter_mut().for_each(|constraint| constraint.bound += margin);
-    let cells: Vec<CellId> = (problem.labels.iter())
+    let cells: Vec<CellId> = (problem.labels().iter())
         .filter(|(_, kind)| *kind == CellKind::Ordinary)
         .map(|(cell, _)| cell)
         .collect();
-    let enabled = enabled_actions(&problem.grid, &cells, &targets, &constraints, &());
+    let enabled = enabled_actions(problem.grid(), &cells, &targets, &constraints, &());
     let rows = dynabs::abstraction::compile(problem, &()).unwrap().model;
     let blocked = enabled.ranges_per_cell.iter().filter(|&&n| n == 0).count() as u64;
     let shared: u64 =

@@ -1,7 +1,7 @@
 //! The benchmarks of the paper's predecessors.
 use crate::common::root;
 use assert_cmd::Command;
-use dynabs::model_file::{Document, Problem};
+use dynabs::model_file::Document;
 use std::fs;
 use tempfile::TempDir;
 
@@ -11,9 +11,9 @@ fn all_of_them_are_valid() {
     for entry in fs::read_dir(root().join("models/predecessors")).unwrap() {
         let path = entry.unwrap().path();
         let document = Document::parse(&path, &fs::read_to_string(&path).unwrap()).unwrap();
-        let problem = Problem::from_document(&document).unwrap();
-        assert_eq!(Some(problem.name.as_str()), path.file_stem().unwrap().to_str());
-        cells.push(problem.grid.num_cells());
+        let problem = document.problem().unwrap();
+        assert_eq!(Some(problem.name()), path.file_stem().unwrap().to_str());
+        cells.push(problem.grid().num_cells());
     }
     cells.sort_unstable();
     assert_eq!(cells, [380, 784, 12_325, 25_515, 35_721, 158_125]);

@@ -3,9 +3,9 @@ use crate::common::{document, reference_mode, root, shipped_models};
 use assert_cmd::Command;
 use dynabs::abstraction::compile;
 use dynabs::controller::Controller;
-use dynabs::model_file::Problem;
 use dynabs::report::{CROSS_CHECK, CrossChecks, Material, MaterialOptions, Picture, page, pictures};
 use dynabs::run::{Manifest, Run, WriteOptions, write_run};
+use imdp::formats::sha256_hex;
 use imdp::solver::{Answer, SolverOptions};
 use serde_json::Value;
 use std::fs;
@@ -18,7 +18,7 @@ use tempfile::TempDir;
 fn compiled(scratch: &TempDir, model: &str, sets: &[&str]) -> PathBuf {
     let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
     let document = document(model, &sets);
-    let problem = Problem::from_document(&document).unwrap();
+    let problem = document.problem().unwrap();
     let abstraction = compile(&problem, &()).unwrap();
     let manifest = Manifest::new(&document, "", &problem, &abstraction);
     let directory = scratch.path().join(model);
@@ -39,7 +39,7 @@ fn reported(directory: &Path, times: Vec<(&'static str, Duration)>) -> Reported 
     let solver = SolverOptions { policy: true, ..SolverOptions::default() };
     let answer = run.solve(&solver).unwrap();
     let controller = Controller::new(&run.problem, &run.abstraction, &answer).unwrap();
-    let cross_checks = CrossChecks::read(directory).unwrap();
+    let cross_checks = CrossChecks::read(directory, &run.manifest).unwrap();
     let options = MaterialOptions { seed: 1, runs: 300, drawn: 12, times, cross_checks };
     let material = Material::new(&run, &answer, &controller, options, &solver, &()).unwrap();
     let (page, pictures) = (page(&material).unwrap(), pictures(&material));
@@ -144,8 +144,8 @@ fn assert_truthful(reported: &Reported) {
     let bytes = decoded(data["values"]["data"].as_str().unwrap());
     let values: Vec<f64> =
         bytes.chunks_exact(4).map(|bytes| f64::from(f32::from_le_bytes(bytes.try_into().unwrap()))).collect();
-    let cells = run.problem.grid.num_cells() as usize;
-    let steps = run.problem.horizon.unwrap_or(0) as usize + 1;
+    let cells = run.problem.grid().num_cells() as usize;
+    let steps = run.problem.horizon().unwrap_or(0) as usize + 1;
     assert_eq!(values.len(), cells * steps);
     for (value, &state) in values.iter().zip(&run.abstraction.state_of_cell) {
         let exact = answer.values.lower[state as usize];
@@ -195,9 +195,9 @@ fn every_shipped_model_in_both_modes() {
             assert_eq!(promise.contains("confidence <strong>0.99</strong>"), !reference, "{model}");
             assert_eq!(promise.contains("nothing is guaranteed"), reference, "{model}");
             assert_eq!(page.contains("promised probability"), !reference, "{model}");
-            let bound = dynabs::controller::export::lower_bound_text(answer.lower);
+            let bound = dynabs::guarantee::lower_bound_text(answer.lower);
             assert!(promise.contains(&bound), "{model}: {bound}");
-            for allocation in &run.manifest.probabilities.budget {
+            for allocation in run.manifest.guarantee.samples().iter().flat_map(|samples| &samples.budget) {
                 assert!(page.contains(&format!("<th scope=\"row\">{}</th>", allocation.family)));
             }
             assert!(!page.contains("<h2>Cross-check</h2>"));
@@ -291,7 +291,9 @@ fn the_tool_and_its_mistakes() {
     assert_well_formed(&fs::read_to_string(scratch.path().join("svg/value.svg")).unwrap());
 
     // What other engines said is shown, whatever they are called.
-    let findings = serde_json::json!({"findings": [{
+    let model = fs::read(directory.join("model.dynabs")).unwrap();
+    let model = serde_json::json!([{"kind": "dynabs", "sha256": sha256_hex(&model)}]);
+    let findings = serde_json::json!({"model": model, "findings": [{
         "engine": "PRISM", "version": "<4>", "property": "Pmaxmin=? [ !\"failed\" U<=6 \"reached\" ]",
         "value": [0.99, 0.99], "ours": [0.99, 0.99], "difference": 1.5e-14, "seconds": 1.25, "agreement": "agrees",
     }]});

@@ -3,10 +3,9 @@ use crate::common::controllers::Loop;
 use crate::common::{root, shipped_models};
 use assert_cmd::Command;
 use dynabs::controller::{End, Noise, Simulation, Tally};
-use dynabs::model_file::{GaussianSpec, NoiseSource, NoiseSpec, Problem};
+use dynabs::problem::{GaussianNoise, Problem};
 use serde_json::Value;
 use std::fs;
-use std::path::Path;
 use std::process::Output;
 use tempfile::TempDir;
 
@@ -15,18 +14,16 @@ fn true_noise(model: &str, problem: &Problem) -> Noise {
     let diagonal: &[f64] = match model {
         _ if model.starts_with("double_integrator") => &[1.0, 1.0],
         _ if model.starts_with("spacecraft") => &[5e-4, 5e-4, 5e-8, 5e-8],
-        _ => return Noise::of(&problem.noise),
+        _ => return Noise::of(problem.noise()),
     };
     let entry = |i, j| if i == j { diagonal[i] } else { 0.0 };
     let n = diagonal.len();
     let covariance = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
-    let gaussian = Some(GaussianSpec { mean: None, covariance });
-    let spec = NoiseSpec { samples: None, gaussian, count: Some(1), seed: None };
-    Noise::of(&NoiseSource::new(Path::new(""), &spec, &problem.step_system, problem.group_steps).unwrap())
+    Noise::Gaussian(GaussianNoise { mean: None, covariance }.distribution(n).unwrap())
 }
 
 fn tally(closed: &Loop, noise: Noise, runs: u64) -> Tally {
-    let start = closed.problem.initial_state.clone().unwrap();
+    let start = closed.problem.initial_state().unwrap().to_vec();
     Simulation::new(&closed.problem, &closed.controller, noise, 1000).tally(&start, 7, runs, &())
 }
 
@@ -65,7 +62,7 @@ fn a_trajectory_is_the_run_that_was_counted() {
     let closed = Loop::of("spacecraft_aligned", &[]);
     let simulation =
         Simulation::new(&closed.problem, &closed.controller, true_noise("spacecraft", &closed.problem), 0);
-    let start = closed.problem.initial_state.clone().unwrap();
+    let start = closed.problem.initial_state().unwrap().to_vec();
     let mut counts = [0; 2];
     for run in 0..200 {
         let trajectory = simulation.trajectory(&start, 7, run);
@@ -83,10 +80,10 @@ fn a_trajectory_is_the_run_that_was_counted() {
 #[test]
 fn unbounded_tasks_are_simulated_to_their_end() {
     let closed = Loop::of("room_temperature", &[r#"/task/horizon="infinite""#]);
-    let noise = Noise::of(&closed.problem.noise);
+    let noise = Noise::of(closed.problem.noise());
     let long = tally(&closed, noise.clone(), 2000);
     assert!(long.unfinished == 0 && long.reached as f64 >= 2000.0 * closed.answer.lower, "{long:?}");
-    let start = closed.problem.initial_state.clone().unwrap();
+    let start = closed.problem.initial_state().unwrap().to_vec();
     let short = Simulation::new(&closed.problem, &closed.controller, noise, 1).tally(&start, 7, 2000, &());
     assert_eq!((short.unfinished, short.open, short.over), (2000, 2000, 0));
     assert!(!short.satisfaction(0.01).contradicts(closed.answer.lower));

@@ -1,8 +1,9 @@
 //! The law that an enabled action promises: inside U, and at the target, from every state of the cell.
 use dynabs::abstraction::{Targets, enabled_actions};
 use dynabs::geometry::Polytope;
-use dynabs::model_file::{Document, Problem};
+use dynabs::model_file::Document;
 use dynabs::partition::{CellId, Grid};
+use dynabs::problem::{Actions, Problem};
 use dynabs::system::{Extent, FeedbackLaw};
 use imdp::numeric::to_f64;
 use nalgebra::{DMatrix, DVector};
@@ -44,15 +45,16 @@ fn excess(set: &Polytope, u: &DVector<f64>) -> f64 {
 
 /// How many (state, action) pairs were tried.
 fn check(problem: &Problem, seed: u64) -> usize {
-    let grid = &problem.grid;
-    let targets = Targets::new(&problem.targets, grid);
-    let layers = problem.stabilizer.as_ref().map(|s| &s.layers);
-    let law = FeedbackLaw::new(&problem.system, layers).unwrap();
+    let grid = problem.grid();
+    let Actions::Targets(points) = problem.actions();
+    let targets = Targets::new(points, grid);
+    let layers = problem.stabilizer().map(|s| &s.layers);
+    let law = FeedbackLaw::new(problem.system(), layers).unwrap();
     let extent = Extent { state: grid.magnitudes(), target: targets.magnitudes() };
-    let constraints = law.constraints(&problem.input, layers.map(|l| l.abstract_input()), &extent);
+    let constraints = law.constraints(problem.input(), layers.map(|l| l.abstract_input()), &extent);
     let error = law.steering_error(&extent);
     let [m, n, c] = [law.target_gain(), law.state_gain(), law.constant()];
-    let [a, b, q] = [problem.system.a(), problem.system.b(), problem.system.q()].map(|m| m.to_f64());
+    let [a, b, q] = [problem.system().a(), problem.system().b(), problem.system().q()].map(|m| m.to_f64());
     let mut rng = ChaCha12Rng::seed_from_u64(seed);
     let cells: Vec<CellId> = (0..200).map(|_| CellId(rng.next_u32() % grid.num_cells())).collect();
     let enabled = enabled_actions(grid, &cells, &targets, &constraints, &());
@@ -66,7 +68,11 @@ fn check(problem: &Problem, seed: u64) -> usize {
             let d = DVector::from_column_slice(&point);
             let x = state_in(grid, cell, &mut rng);
             let u: DVector<f64> = (&m * &d + &n * &x + &c).column(0).into();
-            assert!(excess(&problem.input, &u) <= 0.0, "u = {u} leaves U by {}", excess(&problem.input, &u));
+            assert!(
+                excess(problem.input(), &u) <= 0.0,
+                "u = {u} leaves U by {}",
+                excess(problem.input(), &u)
+            );
             if let Some(layers) = layers {
                 let gain: DMatrix<f64> = layers.gain().to_f64();
                 let upper: DVector<f64> = (&u + gain * (&x - layers.about().to_f64())).column(0).into();
@@ -97,7 +103,7 @@ fn inputs_stay_inside_and_targets_are_reached() {
 #[test]
 fn the_law_is_tested_not_its_existence() {
     let document = Document::parse(Path::new("wide.json"), MORE_INPUTS_THAN_STATES).unwrap();
-    let problem = Problem::from_document(&document).unwrap();
-    assert_eq!((problem.group_steps, problem.system.input_dimension()), (2, 4));
+    let problem = document.problem().unwrap();
+    assert_eq!((problem.group_steps(), problem.system().input_dimension()), (2, 4));
     assert!(check(&problem, 99) > 100);
 }

@@ -146,7 +146,7 @@ fn pac_table(noise: Option<&str>) -> PacTable {
         sets.extend(noise.map(|noise| format!("/noise={noise}")));
         let values = values_by_cell(&abstraction(model, &sets));
         let along = along_x1(&values);
-        // Cell i is centred at x1 = 2i − 40.
+        // Cell i is centered at x1 = 2i − 40.
         [along[5], along[10], along[15], along[22], values.iter().sum::<f64>() / values.len() as f64]
     };
     rows.iter().map(of_row).collect::<Vec<_>>().try_into().unwrap()
@@ -184,6 +184,6 @@ fn discarded_samples_make_rows_shorter_and_leave_more_unseen() {
     let all = abstraction("double_integrator", &[]);
     let fewer = abstraction("double_integrator", &["/probabilities/discard=8".into()]);
     assert!(fewer.model.rows().num_entries() < all.model.rows().num_entries());
-    let unseen = |abstraction: &Abstraction| abstraction.guarantee.as_ref().unwrap().unseen_mass;
+    let unseen = |abstraction: &Abstraction| abstraction.guarantee.samples().unwrap().unseen_mass;
     assert!(unseen(&fewer) > unseen(&all));
 }

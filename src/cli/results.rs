@@ -1,5 +1,6 @@
 //! Answers as they are printed: a table for people, objects for programs.
 
+use dynabs::guarantee::Claim;
 use imdp::property::{Property, Verdict};
 use imdp::solver::{Answer, Status};
 use serde::{Deserialize, Serialize};
@@ -24,6 +25,9 @@ pub struct PropertyResult {
     pub steps: u64,
     /// How long it took.
     pub seconds: f64,
+    /// For models of a run: what the answer claims of the system.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub guarantee: Option<Claim>,
     /// Whether the question was answered: it ended by itself and no threshold lies between the bounds.
     #[serde(skip, default)]
     decided: bool,
@@ -42,6 +46,7 @@ impl PropertyResult {
             status: status.to_string(),
             steps: answer.solution.iterations,
             seconds: time.as_secs_f64(),
+            guarantee: None,
             decided: match answer.verdict {
                 None => ended,
                 Some(verdict) => verdict != Verdict::Unknown,
@@ -69,7 +74,10 @@ pub(super) fn table(results: &[PropertyResult]) -> String {
         let _ = writeln!(text, "{}", result.property);
         let width = result.upper - result.lower;
         let digits = if width > 0.0 { (2.0 - width.log10()).clamp(6.0, 15.0) as usize } else { 12 };
+        let caveat = result.guarantee.as_ref().and_then(|claim| claim.caveat.as_ref());
         let verdict = match (result.satisfied, result.decided) {
+            // Never a bare `true` where a reader may take it for more.
+            (Some(true), _) if caveat.is_some() => "true at grouped instants only   ".to_owned(),
             (Some(satisfied), _) => format!("{satisfied}   "),
             (None, true) => String::new(),
             (None, false) => "undecided   ".to_owned(),
@@ -83,6 +91,11 @@ pub(super) fn table(results: &[PropertyResult]) -> String {
             result.steps,
             Duration::from_secs_f64(result.seconds),
         );
+        if let Some(claim) = &result.guarantee {
+            let covered = if claim.covered { "covered" } else { "not covered" };
+            let caveat = caveat.map_or(String::new(), |caveat| format!("; {caveat}"));
+            let _ = writeln!(text, "  {covered}: {}{caveat}", claim.text);
+        }
     }
     text
 }

@@ -3,7 +3,7 @@
 use super::CliError;
 use clap::{Args, ValueEnum};
 use dynabs::controller::Noise;
-use dynabs::model_file::{GaussianSpec, NoiseSource, NoiseSpec, SampleKind, SamplesSpec, StepNoise};
+use dynabs::problem::{GaussianNoise, NoiseSource, SampleKind, SamplesFile, StepNoise};
 use dynabs::run::Run;
 use std::path::Path;
 
@@ -50,11 +50,11 @@ pub(super) struct ChosenNoise {
 /// # Errors
 /// [`CliError::Input`] if the model has none of that kind, or file or covariance are malformed.
 pub(super) fn noise(arguments: &NoiseArguments, run: &Run) -> Result<ChosenNoise, CliError> {
-    let own = &run.problem.noise;
+    let own = run.problem.noise();
     let is_gaussian = matches!(own.of_one_step, StepNoise::Gaussian(_));
     let chosen = match (arguments.noise.as_deref(), &arguments.covariance) {
         (None | Some("gaussian"), Some(covariance)) => {
-            let noise = Noise::of(&given_gaussian(covariance, arguments.mean.as_deref(), run)?);
+            let noise = given_gaussian(covariance, arguments.mean.as_deref(), run)?;
             ChosenNoise { noise, name: format!("Gaussian, covariance {covariance}"), notes: vec![] }
         }
         (Some(other), Some(_)) => {
@@ -78,11 +78,11 @@ pub(super) fn noise(arguments: &NoiseArguments, run: &Run) -> Result<ChosenNoise
             ChosenNoise { noise, name, notes: vec![note.into()] }
         }
         (Some(file), None) => {
-            let noise = Noise::of(&given_samples(Path::new(file), arguments.samples_of, run)?);
+            let noise = given_samples(Path::new(file), arguments.samples_of, run)?;
             ChosenNoise { noise, name: format!("samples of {file}, drawn with replacement"), notes: vec![] }
         }
     };
-    Ok(chosen.with_notes(run.problem.group_steps))
+    Ok(chosen.with_notes(run.problem.group_steps()))
 }
 
 impl ChosenNoise {
@@ -97,7 +97,7 @@ impl ChosenNoise {
     }
 }
 
-fn given_gaussian(covariance: &str, mean: Option<&str>, run: &Run) -> Result<NoiseSource, CliError> {
+fn given_gaussian(covariance: &str, mean: Option<&str>, run: &Run) -> Result<Noise, CliError> {
     let malformed = |option: &str, text: &str, expected: &str| {
         CliError::Input(format!("{option}: found \"{text}\"; expected {expected}"))
     };
@@ -107,13 +107,12 @@ fn given_gaussian(covariance: &str, mean: Option<&str>, run: &Run) -> Result<Noi
     let mean = mean.map(|text| {
         serde_json::from_str(text).map_err(|_| malformed("--mean", text, "a list in JSON such as [0,0]"))
     });
-    let gaussian = GaussianSpec { mean: mean.transpose()?, covariance: parsed };
-    // One sample: only the distribution is wanted.
-    let spec = NoiseSpec { samples: None, gaussian: Some(gaussian), count: Some(1), seed: None };
-    read(Path::new(""), &spec, "--covariance", run)
+    let given = GaussianNoise { mean: mean.transpose()?, covariance: parsed };
+    let gaussian = given.distribution(run.problem.step_system().state_dimension());
+    Ok(Noise::Gaussian(gaussian.map_err(|error| error.in_file("--covariance"))?))
 }
 
-fn given_samples(file: &Path, of: Of, run: &Run) -> Result<NoiseSource, CliError> {
+fn given_samples(file: &Path, of: Of, run: &Run) -> Result<Noise, CliError> {
     if !file.exists() {
         return Err(CliError::Input(format!(
             "--noise: found no file {}; expected gaussian, samples, or a CSV file",
@@ -124,13 +123,7 @@ fn given_samples(file: &Path, of: Of, run: &Run) -> Result<NoiseSource, CliError
         Of::Step => SampleKind::Step,
         Of::Grouped => SampleKind::Grouped,
     };
-    let samples = SamplesSpec { file: file.display().to_string(), of };
-    let spec = NoiseSpec { samples: Some(samples), gaussian: None, count: None, seed: None };
-    read(Path::new(""), &spec, "--noise", run)
-}
-
-fn read(directory: &Path, spec: &NoiseSpec, option: &str, run: &Run) -> Result<NoiseSource, CliError> {
-    let problem = &run.problem;
-    let source = NoiseSource::new(directory, spec, &problem.step_system, problem.group_steps);
-    Ok(source.map_err(|error| error.in_file(option))?)
+    let source = NoiseSource::from(SamplesFile { name: file.display().to_string(), path: file.into(), of });
+    let noise = source.obtain(run.problem.step_system(), run.problem.group_steps());
+    Ok(Noise::of(&noise.map_err(|error| error.in_file("--noise"))?))
 }

@@ -1,15 +1,14 @@
 //! What a simulation showed, for people and programs.
 
 use super::simulation_noise::ChosenNoise;
-use super::{CliError, thousands};
-use dynabs::controller::export::{Promise, lower_bound_text};
+use super::{CliError, thousands, warn};
 use dynabs::controller::{Controller, Frequency, Tally};
+use dynabs::guarantee::lower_bound_text;
 use dynabs::run::Run;
 use imdp::numeric::{Rational, from_decimal, shortest_decimal, to_f64};
 use num_traits::One;
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// A simulation against the promise.
@@ -49,25 +48,25 @@ pub(super) struct Simulated {
 impl Report {
     pub(super) fn new(run: &Run, controller: &Controller, noise: ChosenNoise, simulated: Simulated) -> Self {
         let Simulated { from, seed, confidence, tally, seconds } = simulated;
-        let promise = Promise::new(&run.problem, controller);
+        let guarantee = controller.guarantee();
         // Of the decimal that was written: 0.01 for 0.99.
         let alpha = from_decimal(confidence).map_or(0.01, |p| to_f64(&(Rational::one() - p)));
         let bound = controller.bound_at(&from);
         let satisfied = tally.satisfaction(alpha);
         Self {
             name: run.manifest.name.clone(),
-            mode: promise.mode,
+            mode: guarantee.mode(),
             from,
             noise: noise.name,
             seed,
             bound,
-            promise_confidence: promise.confidence,
+            promise_confidence: guarantee.confidence(),
             satisfied,
             reached: tally.reaching(alpha),
             contradiction: satisfied.contradicts(bound),
             inputs_checked: tally.steps * controller.group_steps() as u64,
             counts: tally,
-            group_steps: promise.group_steps,
+            group_steps: guarantee.event.group_steps,
             seconds,
             notes: noise.notes,
         }
@@ -142,15 +141,13 @@ impl Report {
                 }
                 None => "reference mode promises nothing",
             };
-            // If stderr is closed there is nobody to warn.
-            let _ = writeln!(
-                io::stderr(),
+            warn(&format!(
                 "warning: the simulation contradicts the promise: at least {} against at most {:.6} with confidence {}\n  \
-                 Either {meaning}.",
+                 Either {meaning}.\n",
                 lower_bound_text(self.bound),
                 self.satisfied.upper,
                 self.satisfied.confidence
-            );
+            ));
         }
     }
 

@@ -32,18 +32,24 @@ pub(super) fn summary(manifest: &Manifest, directory: Option<&str>) -> String {
             line("Riccati", format!("relative residual {residual:.1e}"));
         }
     }
-    match (manifest.confidence, manifest.probabilities.unseen_mass) {
-        (Some(confidence), Some(unseen)) => {
-            let samples = thousands(manifest.samples);
-            line("intervals", format!("hold together with confidence {confidence}, from {samples} samples"));
-            let split: Vec<_> = manifest
-                .probabilities
+    match (manifest.guarantee.samples(), manifest.guarantee.confidence()) {
+        (Some(samples), Some(confidence)) => {
+            let number = thousands(samples.number);
+            let sweep = match samples.sweep {
+                1 => String::new(),
+                settings => format!(", of {settings} settings together"),
+            };
+            line(
+                "intervals",
+                format!("hold together with confidence {confidence}{sweep}, from {number} samples"),
+            );
+            let split: Vec<_> = samples
                 .budget
                 .iter()
                 .map(|a| format!("{} {:.2e} over {} events", a.family, a.beta, a.events))
                 .collect();
             line("budget", split.join(", "));
-            line("unseen mass", format!("at most {unseen:.6}"));
+            line("unseen mass", format!("at most {:.6}", samples.unseen_mass));
         }
         _ => line("intervals", "those of the published tool: for comparison, not a guarantee".into()),
     }
@@ -56,5 +62,6 @@ pub(super) fn summary(manifest: &Manifest, directory: Option<&str>) -> String {
         line("written", format!("{directory} ({:.1} MB)", bytes as f64 / 1e6));
     }
     let mode = &manifest.mode;
-    format!("{} ({mode} mode)\n{text}", manifest.name)
+    let caveat = manifest.guarantee.caveat().map_or(String::new(), |caveat| format!(": {caveat}"));
+    format!("{} ({mode} mode){caveat}\n{text}", manifest.name)
 }

@@ -1,7 +1,7 @@
 //! Trajectories as CSV.
 
 use dynabs::controller::{Decision, Trajectory};
-use dynabs::model_file::Problem;
+use dynabs::problem::Problem;
 use imdp::numeric::shortest_decimal;
 use std::io::{self, Write};
 
@@ -19,8 +19,8 @@ pub(super) fn write_trajectories(
 ) -> io::Result<()> {
     let named =
         |name: &str, count: usize| -> Vec<String> { (1..=count).map(|j| format!("{name}{j}")).collect() };
-    let p = problem.step_system.input_dimension();
-    let (states, inputs) = (named("x", problem.grid.dimension()), named("u", p));
+    let p = problem.step_system().input_dimension();
+    let (states, inputs) = (named("x", problem.grid().dimension()), named("u", p));
     writeln!(out, "run,step,{},{},status", states.join(","), inputs.join(","))?;
     for trajectory in trajectories {
         for step in &trajectory.steps {

@@ -14,7 +14,7 @@
 //!
 //! | stage | module | what comes out |
 //! |---|---|---|
-//! | a model file is read and validated | [`model_file`] | a [`Problem`](model_file::Problem) |
+//! | a problem is stated, in memory or as a model file | [`problem`], [`model_file`] | a [`Problem`](problem::Problem) |
 //! | `d` steps become one; LQR closes a lower loop | [`system`] | `Â`, `B̂`, `K`, and the [`FeedbackLaw`](system::FeedbackLaw) |
 //! | the state space is cut into cells | [`partition`] | a [`Grid`](partition::Grid) with exact faces, labelled cells |
 //! | samples become probability intervals | [`noise`], [`statistics`] | bounds that hold together with probability `1 − β` |
@@ -39,7 +39,7 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/room_temperature.json"));
 //! let document = model_file::Document::parse(path, &std::fs::read_to_string(path)?)?;
-//! let problem = model_file::Problem::from_document(&document)?;
+//! let problem = document.problem()?;
 //! let compiled = abstraction::compile(&problem, &())?;
 //!
 //! let options = solver::SolverOptions { policy: true, ..Default::default() };
@@ -61,14 +61,19 @@
 
 pub mod abstraction;
 pub mod controller;
+mod diagnostic;
 pub mod geometry;
+pub mod guarantee;
+pub mod landing;
 pub mod linear_algebra;
 pub mod model_file;
 pub mod noise;
 pub mod partition;
+pub mod problem;
 pub mod report;
 pub mod run;
 pub mod statistics;
 pub mod system;
 
+pub use diagnostic::Diagnostic;
 pub use imdp;

@@ -3,7 +3,8 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use dynabs::abstraction::compile;
-use dynabs::model_file::{Document, Problem};
+use dynabs::model_file::Document;
+use dynabs::problem::Problem;
 use imdp::solver::{Answer, SolverOptions};
 use std::path::Path;
 
@@ -12,7 +13,7 @@ fn problem(set: &str) -> Problem {
     let mut document = Document::parse(path, &std::fs::read_to_string(path).unwrap()).unwrap();
     document.set(&set.parse().unwrap()).unwrap();
     document.set(&"/task/horizon=32".parse().unwrap()).unwrap();
-    Problem::from_document(&document).unwrap()
+    document.problem().unwrap()
 }
 
 fn benchmark(criterion: &mut Criterion) {

@@ -63,11 +63,10 @@ fn main() -> ExitCode {
 fn run(layout: Layout, noise: Noise, replications: u64) -> Failures {
     let seeds: Vec<u64> = (0..replications).collect();
     let parts = seeds.par_chunks(50).map(|seeds| {
-        let directory = tempfile::tempdir().unwrap();
         let mut failures = Failures::default();
         seeds.iter().for_each(|&seed| {
             // Other sets than those of the tests.
-            failures += replicate(directory.path(), layout, noise, (SAMPLES, BETA), 1_000_000 + seed);
+            failures += replicate(layout, noise, (SAMPLES, BETA), 1_000_000 + seed);
         });
         failures
     });

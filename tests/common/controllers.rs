@@ -2,7 +2,7 @@
 
 use dynabs::abstraction::{Abstraction, compile};
 use dynabs::controller::Controller;
-use dynabs::model_file::Problem;
+use dynabs::problem::Problem;
 use imdp::numeric::to_f64;
 use imdp::solver::{Answer, SolverOptions};
 use rand::Rng;
@@ -32,7 +32,7 @@ impl Loop {
 
     /// A random state in and a little around the partition, sometimes on faces.
     pub fn random_state(&self, rng: &mut ChaCha12Rng) -> Vec<f64> {
-        let axes = self.problem.grid.axes().iter();
+        let axes = self.problem.grid().axes().iter();
         axes.map(|axis| {
             let (lower, upper) = (to_f64(axis.lower()), to_f64(axis.upper()));
             match rng.next_u64() % 20 {

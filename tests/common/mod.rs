@@ -5,8 +5,10 @@ pub mod cases;
 pub mod certified;
 pub mod controllers;
 
+use dynabs::Diagnostic;
 use dynabs::abstraction::{Abstraction, compile};
-use dynabs::model_file::{Diagnostic, Document, Problem};
+use dynabs::model_file::Document;
+use dynabs::problem::Problem;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -29,7 +31,7 @@ pub fn document(model: &str, sets: &[String]) -> Document {
 
 /// A shipped model, validated.
 pub fn problem(model: &str, sets: &[String]) -> Result<Problem, Diagnostic> {
-    Problem::from_document(&document(model, sets))
+    document(model, sets).problem()
 }
 
 /// A shipped model, abstracted.

@@ -22,10 +22,9 @@ fn noise_of(probability: f64) -> f64 {
 }
 
 fn failures(layout: Layout, noise: Noise) -> Failures {
-    let directory = tempfile::tempdir().unwrap();
     let mut failures = Failures::default();
     for seed in 0..REPLICATIONS {
-        failures += replicate(directory.path(), layout, noise, (SAMPLES, BETA), seed);
+        failures += replicate(layout, noise, (SAMPLES, BETA), seed);
     }
     println!("{layout:?}, {noise:?}, {REPLICATIONS} replications: {failures:?}");
     failures

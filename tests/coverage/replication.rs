@@ -3,13 +3,12 @@
 use crate::noise::Noise;
 use crate::truth::{Layout, Truth, problem, satisfaction};
 use dynabs::abstraction::{Abstraction, compile};
-use dynabs::model_file::Problem;
 use dynabs::partition::CellId;
+use dynabs::problem::Problem;
 use dynabs::statistics::{lower_bound, upper_bound};
 use imdp::numeric::to_f64;
 use imdp::solver::{Answer, SolverOptions};
 use std::ops::AddAssign;
-use std::path::Path;
 
 /// Allowance for the rounding of distribution functions.
 const ROUNDING: f64 = 1e-12;
@@ -46,14 +45,8 @@ impl AddAssign for Failures {
 }
 
 /// Abstracts, solves and compares with the truth.
-pub fn replicate(
-    directory: &Path,
-    layout: Layout,
-    noise: Noise,
-    (samples, beta): (usize, f64),
-    seed: u64,
-) -> Failures {
-    let problem = problem(directory, layout, &noise.draw(samples, seed), beta);
+pub fn replicate(layout: Layout, noise: Noise, (samples, beta): (usize, f64), seed: u64) -> Failures {
+    let problem = problem(layout, &noise.draw(samples, seed), beta);
     let abstraction = compile(&problem, &()).unwrap();
     let truths = Truth::of_actions(&problem, &abstraction, noise);
     let options = SolverOptions { policy: true, ..SolverOptions::default() };
@@ -62,7 +55,7 @@ pub fn replicate(
     let real = satisfaction(&problem, &abstraction, policy, &truths);
     let overstated = (real.iter().zip(&abstraction.state_of_cell))
         .any(|(real, &state)| answer.values.lower[state as usize] > real + ROUNDING);
-    let unseen = abstraction.guarantee.as_ref().unwrap().unseen_mass;
+    let unseen = abstraction.guarantee.samples().unwrap().unseen_mass;
     let [cells, goal, failed] = violations(&problem, &abstraction, &truths, 0.0);
     let [_, _, without_unseen] = violations(&problem, &abstraction, &truths, unseen);
     let count = u64::from;
@@ -98,7 +91,7 @@ fn violations(problem: &Problem, abstraction: &Abstraction, truths: &[Truth], le
 
 /// Whether some two-sided interval at level `β` of its own excludes the probability of a cell.
 fn one_by_one(problem: &Problem, abstraction: &Abstraction, truths: &[Truth], beta: f64) -> bool {
-    let samples = problem.noise.samples.len() as u64;
+    let samples = problem.noise().samples.len() as u64;
     truths.iter().enumerate().any(|(target, truth)| {
         let mut point = [0.0; 2];
         abstraction.targets.point(target, &mut point);
@@ -110,9 +103,9 @@ fn one_by_one(problem: &Problem, abstraction: &Abstraction, truths: &[Truth], be
 
 /// How many samples of `d + η` fall in each cell, counted without the library.
 fn counts(problem: &Problem, point: [f64; 2]) -> Vec<u64> {
-    let grid = &problem.grid;
+    let grid = problem.grid();
     let mut counts = vec![0; grid.num_cells() as usize];
-    for sample in problem.noise.samples.iter() {
+    for sample in problem.noise().samples.iter() {
         let coordinates: Option<Vec<u32>> = (grid.axes().iter().enumerate())
             .map(|(j, axis)| {
                 let position = (point[j] + sample[j] - to_f64(axis.lower())) / to_f64(axis.width());

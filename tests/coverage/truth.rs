@@ -2,14 +2,14 @@
 
 use crate::noise::Noise;
 use dynabs::abstraction::Abstraction;
-use dynabs::model_file::{Document, Problem};
-use dynabs::noise::NoiseSamples;
 use dynabs::partition::{CellId, CellKind};
+use dynabs::problem::{
+    GivenSamples, InputSet, LinearDynamics, Partition, Probabilities, Problem, RegionBox, SampleKind,
+    TargetChoice, Task,
+};
 use imdp::model::{Row, StateId};
 use imdp::numeric::to_f64;
 use imdp::solver::Policy;
-use serde_json::{Value, json};
-use std::path::Path;
 
 /// The number of steps of the task.
 pub const HORIZON: u64 = 4;
@@ -17,43 +17,36 @@ pub const HORIZON: u64 = 4;
 /// Where actions steer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
-    /// The centres of all cells: rows are translations of each other.
+    /// The centers of all cells: rows are translations of each other.
     Centers,
     /// A few points anywhere.
     Points,
 }
 
-/// The model with these samples in a file in `directory`.
-pub fn problem(directory: &Path, layout: Layout, samples: &[f64], beta: f64) -> Problem {
+/// The model with these samples.
+pub fn problem(layout: Layout, samples: &[f64], beta: f64) -> Problem {
     let targets = match layout {
-        Layout::Centers => json!("centers"),
-        Layout::Points => json!([[-1.3, 0.2], [0.1, 0.3], [0.9, -1.2], [1.7, 1.4], [-0.2, -0.1]]),
+        Layout::Centers => TargetChoice::Centers,
+        Layout::Points => TargetChoice::Points(
+            [[-1.3, 0.2], [0.1, 0.3], [0.9, -1.2], [1.7, 1.4], [-0.2, -0.1]].map(Vec::from).to_vec(),
+        ),
     };
-    let csv = NoiseSamples::new(2, samples.to_vec()).to_csv();
-    std::fs::write(directory.join("noise.csv"), csv).unwrap();
-    let document = Document {
-        name: "coverage".to_owned(),
-        directory: directory.to_path_buf(),
-        value: model(&targets, beta),
+    let dynamics = LinearDynamics {
+        a: vec![vec![1.0, 0.5], vec![0.0, 1.0]],
+        b: vec![vec![1.0, 0.0], vec![0.0, 1.0]],
+        q: None,
     };
-    Problem::from_document(&document).unwrap()
-}
-
-fn model(targets: &Value, beta: f64) -> Value {
-    json!({
-        "name": "coverage",
-        "dynamics": {"A": [[1, 0.5], [0, 1]], "B": [[1, 0], [0, 1]]},
-        "noise": {"samples": {"file": "noise.csv", "of": "grouped"}},
-        "input": {"lower": [-2.5, -1.5], "upper": [2.5, 1.5]},
-        "partition": {"lower": [-2, -2], "upper": [2, 2], "cells": [5, 4]},
-        "targets": targets,
-        "task": {
-            "goal": [{"lower": [-0.4, -1], "upper": [0.4, 1]}],
-            "unsafe": [{"lower": [1.2, -2], "upper": [2, -1]}],
-            "horizon": HORIZON,
-        },
-        "probabilities": {"mode": "pac", "beta": beta},
-    })
+    let region = |lower: [f64; 2], upper: [f64; 2]| RegionBox { lower: lower.into(), upper: upper.into() };
+    let goal = region([-0.4, -1.0], [0.4, 1.0]);
+    let unsafe_ = region([1.2, -2.0], [2.0, -1.0]);
+    Problem::builder(dynamics, InputSet::Box { lower: vec![-2.5, -1.5], upper: vec![2.5, 1.5] })
+        .partition(Partition { lower: vec![-2.0, -2.0], upper: vec![2.0, 2.0], cells: vec![5, 4] })
+        .targets(targets)
+        .task(Task::reach(vec![goal]).avoiding(vec![unsafe_]).within(HORIZON))
+        .probabilities(Probabilities::with_beta(beta).unwrap())
+        .noise(GivenSamples { values: samples.to_vec(), of: SampleKind::Grouped })
+        .build()
+        .unwrap()
 }
 
 /// What really happens under one action: the probability of every cell.
@@ -74,7 +67,7 @@ impl Truth {
     }
 
     fn at(problem: &Problem, noise: Noise, point: [f64; 2]) -> Self {
-        let grid = &problem.grid;
+        let grid = problem.grid();
         let cells = (0..grid.num_cells()).map(|cell| {
             let face = |j: usize, i| to_f64(&grid.axes()[j].face(i)) - point[j];
             let side = |above| [0, 1].map(|j| face(j, grid.coordinate(CellId(cell), j) + above));
@@ -86,7 +79,7 @@ impl Truth {
     /// The distribution over the states of a row, with all other mass moved to `failed`.
     pub fn over(&self, row: &Row<'_>, problem: &Problem, abstraction: &Abstraction) -> Vec<f64> {
         let mut of_state = vec![0.0; abstraction.model.num_states()];
-        for (cell, kind) in problem.labels.iter() {
+        for (cell, kind) in problem.labels().iter() {
             if kind != CellKind::Unsafe {
                 of_state[abstraction.state_of_cell[cell.index()] as usize] += self.cells[cell.index()];
             }
@@ -106,7 +99,7 @@ pub fn satisfaction(
     policy: &Policy,
     truths: &[Truth],
 ) -> Vec<f64> {
-    let kinds: Vec<CellKind> = problem.labels.iter().map(|(_, kind)| kind).collect();
+    let kinds: Vec<CellKind> = problem.labels().iter().map(|(_, kind)| kind).collect();
     let mut values: Vec<f64> =
         kinds.iter().map(|&kind| f64::from(u8::from(kind == CellKind::Goal))).collect();
     for elapsed in (0..HORIZON).rev() {

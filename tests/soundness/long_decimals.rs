@@ -94,7 +94,8 @@ fn conversions_keep_the_number_or_refuse() {
             assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         }
         assert_values(&drn::import(&path("drn")).unwrap().model, name);
-        let (first, again) = (model(&format!("long/{name}.tra")).model, prism::import(&path("tra"), None, None));
+        let (first, again) =
+            (model(&format!("long/{name}.tra")).model, prism::import(&path("tra"), None, None));
         let exact = |model: &IntervalMdp| -> Vec<_> {
             let rows = model.rows().iter();
             rows.flat_map(|row| row.exact.iter().map(|bound| bound.value.to_string())).collect()

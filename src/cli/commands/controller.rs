@@ -4,7 +4,7 @@ use crate::exports::replace;
 use crate::run_source::{Refined, refine};
 use crate::{Bars, CliError, print};
 use clap::Args;
-use dynabs::controller::export::{CSourceError, Promise, c_source, write_csv, write_json};
+use dynabs::controller::export::{CSourceError, c_source, write_csv, write_json};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -37,7 +37,7 @@ pub fn run(arguments: &ControllerArguments) -> Result<ExitCode, CliError> {
     let problem = &run.problem;
     match form {
         Form::Json => replace(path, |out| write_json(&controller, problem, out))?,
-        Form::Csv => replace(path, |out| write_csv(&controller, &problem.grid, out))?,
+        Form::Csv => replace(path, |out| write_csv(&controller, problem.grid(), out))?,
         Form::C => {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             let text = c_source(&controller, problem, &name).map_err(|error| match error {
@@ -50,7 +50,7 @@ pub fn run(arguments: &ControllerArguments) -> Result<ExitCode, CliError> {
         }
     }
     if !arguments.quiet {
-        let promise = Promise::new(problem, &controller).sentences().join("\n  ");
+        let promise = controller.promise().join("\n  ");
         print(&format!("wrote {}\n  {promise}\n", path.display()))?;
     }
     Ok(ExitCode::SUCCESS)

@@ -103,9 +103,9 @@ pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, CliError> {
 
 /// The state that runs start in.
 fn start(arguments: &SimulateArguments, run: &Run) -> Result<Vec<f64>, CliError> {
-    let n = run.problem.grid.dimension();
+    let n = run.problem.grid().dimension();
     let Some(text) = &arguments.from else {
-        return run.problem.initial_state.clone().ok_or_else(|| {
+        return run.problem.initial_state().map(<[f64]>::to_vec).ok_or_else(|| {
             let example = vec!["0"; n].join(",");
             CliError::Input(format!(
                 "--from: found nothing, and the model has no initial state; expected {n} numbers such as --from={example}"
@@ -119,7 +119,7 @@ fn start(arguments: &SimulateArguments, run: &Run) -> Result<Vec<f64>, CliError>
             "--from: found \"{text}\"; expected {n} numbers separated by commas, one per dimension of the state"
         )));
     };
-    if CellLookup::new(&run.problem.grid).locate(&x).is_none() {
+    if CellLookup::new(run.problem.grid()).locate(&x).is_none() {
         return Err(CliError::Input(format!(
             "--from: found \"{text}\", outside the partition; expected a state in it, for which something is promised"
         )));

@@ -8,13 +8,15 @@ use super::states::{FAILED, REACHED, StateSpace, labels};
 use super::steering::Steering;
 use super::targets::Targets;
 use super::{AbstractionError, reference};
-use crate::model_file::{Probabilities, Problem};
+use crate::guarantee::{Event, Evidence, Guarantee};
 use crate::partition::{CellId, CellKind, Grid};
-use crate::statistics::Allocation;
+use crate::problem::{Probabilities, Problem};
 use crate::system::FeedbackLaw;
 use imdp::model::{
     ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, ModelKind, Parts, RowRange, Rows, StateId,
+    StateSet,
 };
+use imdp::numeric::Rational;
 use imdp::progress::Progress;
 use imdp::property::{PathFormula, Property, Resolution, StateFormula, Threshold, ThresholdComparison};
 use imdp::solver::{Answer, SolverOptions};
@@ -33,23 +35,12 @@ pub struct Abstraction {
     pub targets: Targets,
     /// The law that steers to them.
     pub law: FeedbackLaw,
-    /// What the intervals promise; `None` in `reference` mode, which promises nothing.
-    pub guarantee: Option<Guarantee>,
+    /// What the intervals promise, which is nothing in `reference` mode.
+    pub guarantee: Guarantee,
     /// How long each phase took.
     pub phases: Vec<(&'static str, Duration)>,
     /// What the user should know.
     pub warnings: Vec<String>,
-}
-
-/// What the intervals of a model promise, and what it rests on.
-#[derive(Clone, Debug)]
-pub struct Guarantee {
-    /// The probability that some claim fails, at most.
-    pub beta: f64,
-    /// What the budget was spent on.
-    pub budget: Vec<Allocation>,
-    /// The bound on the mass outside the window of cells that a row lists.
-    pub unseen_mass: f64,
 }
 
 /// How long to look for values by which windows are chosen: a better choice is not worth more.
@@ -75,23 +66,23 @@ impl Clock {
 /// [`AbstractionError`] if nothing is enabled, the samples are too few or the model too large.
 pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction, AbstractionError> {
     let mut clock = Clock { start: Instant::now(), phases: vec![] };
-    let grid = &problem.grid;
+    let grid = problem.grid();
     let steering = Steering::new(problem)?;
     clock.lap("law");
 
     let enabled = steering.enabled(problem, progress)?;
     clock.lap("enabled actions");
 
-    let is_pac = matches!(problem.probabilities, Probabilities::Pac { .. });
+    let is_pac = matches!(problem.probabilities(), Probabilities::Pac { .. });
     let states = state_space(problem);
     let Steering { targets, law, extent, .. } = steering;
     let choices = choices(problem, &states, &enabled);
     let blocked = states.select(|state| is_blocked(problem, &states, &choices, state));
     let tolerance = is_pac.then(|| law.steering_error(&extent));
-    let placements = Placements::new(&problem.noise.samples, grid, &targets, tolerance);
+    let placements = Placements::new(&problem.noise().samples, grid, &targets, tolerance);
     clock.lap("choices");
 
-    let (reached, failed) = outcome_states(problem, &states, is_pac);
+    let (reached, failed) = outcome_states(problem, &states, &blocked, is_pac);
     let property = reach_avoid(problem);
     let model_of = |rows: Rows| -> Result<IntervalMdp, ImdpError> {
         IntervalMdp::new(Parts {
@@ -99,28 +90,29 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
             rows,
             choices: choices.clone(),
             actions: ActionNames::OfRow,
-            initial: states.initial(problem.initial_cell, &problem.labels),
+            initial: states.initial(problem.initial_cell(), problem.labels()),
             labels: labels(blocked.clone(), reached.clone(), failed.clone()),
             variables: states.variables(grid),
         })
     };
-    let (rows, guarantee) = match &problem.probabilities {
-        Probabilities::Pac { beta, discard } => {
+    let (rows, evidence) = match problem.probabilities() {
+        Probabilities::Pac { beta, sweep, discard } => {
             let is_lost = |cell| blocked.contains(states.of_cell(cell) as usize);
-            let outcomes = Outcomes::new(&problem.labels, is_lost);
-            let statement = (beta, *discard as usize);
-            let pac = PacRows::new(problem, statement, &targets, placements, &states, &outcomes)?;
+            let outcomes = Outcomes::new(problem.labels(), is_lost);
+            let own = beta / Rational::from_integer((*sweep).into());
+            let pac =
+                PacRows::new(problem, (own, *discard as usize), &targets, placements, &states, &outcomes)?;
             let rows = pac.rows(progress);
             clock.lap("rows");
             let rows = pac.better_rows(&scout(&model_of(rows)?, &property)?, progress);
             clock.lap("choice of windows");
-            (rows, Some(pac.guarantee()))
+            (rows, Evidence::Samples(pac.evidence(beta, *sweep)))
         }
         Probabilities::Reference { beta_per_interval } => {
             let rows =
                 reference::build(problem, *beta_per_interval, &targets, placements, &states, progress)?;
             clock.lap("rows");
-            (rows, None)
+            (rows, Evidence::Published { beta_per_interval: *beta_per_interval })
         }
     };
     let warnings = warnings(problem, blocked.count_ones(..));
@@ -132,7 +124,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
         state_of_cell: state_of_cell(grid, &states),
         targets,
         law,
-        guarantee,
+        guarantee: Guarantee { event: Event::of(problem), evidence },
         phases: clock.phases,
         warnings,
     })
@@ -152,17 +144,18 @@ impl Abstraction {
     /// allows, so that whatever a policy chooses is safe to apply.
     ///
     /// # Errors
-    /// [`AbstractionError::Foreign`] if the model is another problem's.
+    /// [`AbstractionError::Foreign`] if the model or what is promised of it is another problem's.
     pub fn reopen(
         problem: &Problem,
         model: IntervalMdp,
-        guarantee: Option<Guarantee>,
+        guarantee: Guarantee,
         progress: &dyn Progress,
     ) -> Result<Self, AbstractionError> {
         let mut clock = Clock { start: Instant::now(), phases: vec![] };
         let steering = Steering::new(problem)?;
         let states = state_space(problem);
-        let same = model.num_states() == states.len()
+        let same = guarantee.event == Event::of(problem)
+            && model.num_states() == states.len()
             && model.rows().len() == steering.targets.len()
             && *model.choices() == choices(problem, &states, &steering.enabled(problem, progress)?);
         if !same {
@@ -172,7 +165,7 @@ impl Abstraction {
         let blocked = states.select(|state| is_blocked(problem, &states, model.choices(), state));
         Ok(Self {
             property: reach_avoid(problem),
-            state_of_cell: state_of_cell(&problem.grid, &states),
+            state_of_cell: state_of_cell(problem.grid(), &states),
             warnings: warnings(problem, blocked.count_ones(..)),
             model,
             targets: steering.targets,
@@ -184,9 +177,9 @@ impl Abstraction {
 }
 
 fn state_space(problem: &Problem) -> StateSpace {
-    match problem.probabilities {
-        Probabilities::Pac { .. } => StateSpace::merged(&problem.labels),
-        Probabilities::Reference { .. } => StateSpace::complete(&problem.grid),
+    match problem.probabilities() {
+        Probabilities::Pac { .. } => StateSpace::merged(problem.labels()),
+        Probabilities::Reference { .. } => StateSpace::complete(problem.grid()),
     }
 }
 
@@ -200,7 +193,7 @@ fn choices(problem: &Problem, states: &StateSpace, enabled: &EnabledActions) -> 
     let mut counts = enabled.ranges_per_cell.iter();
     let mut ranges = enabled.ranges.as_slice();
     for (_, cell) in states.cells() {
-        if problem.labels.kind(cell) != CellKind::Ordinary {
+        if problem.labels().kind(cell) != CellKind::Ordinary {
             // The published tool draws goal and unsafe cells without choices.
             builder.finish_state();
             continue;
@@ -221,22 +214,27 @@ fn choices(problem: &Problem, states: &StateSpace, enabled: &EnabledActions) -> 
 /// Whether a state is an ordinary cell with nothing enabled.
 fn is_blocked(problem: &Problem, states: &StateSpace, choices: &Choices, state: StateId) -> bool {
     choices.is_absorbing(state)
-        && states.cell(state).is_some_and(|cell| problem.labels.kind(cell) == CellKind::Ordinary)
+        && states.cell(state).is_some_and(|cell| problem.labels().kind(cell) == CellKind::Ordinary)
 }
 
+/// The states that are labelled `reached` and `failed`.
 fn outcome_states(
     problem: &Problem,
     states: &StateSpace,
+    blocked: &StateSet,
     is_pac: bool,
-) -> (imdp::model::StateSet, imdp::model::StateSet) {
+) -> (StateSet, StateSet) {
     let of_kind = |kind, heads: &[StateId]| {
         states.select(|state| match states.cell(state) {
             None => heads.contains(&state),
-            Some(cell) => problem.labels.kind(cell) == kind,
+            Some(cell) => problem.labels().kind(cell) == kind,
         })
     };
     if is_pac {
-        (of_kind(CellKind::Goal, &[REACHED]), of_kind(CellKind::Unsafe, &[FAILED]))
+        // A run that starts in a cell in which nothing is enabled is over.
+        let mut failed = of_kind(CellKind::Unsafe, &[FAILED]);
+        failed.union_with(blocked);
+        (of_kind(CellKind::Goal, &[REACHED]), failed)
     } else {
         (of_kind(CellKind::Goal, &[2]), of_kind(CellKind::Unsafe, &[0, 1]))
     }
@@ -247,9 +245,9 @@ fn reach_avoid(problem: &Problem) -> Property {
     let path = PathFormula::Until {
         left: StateFormula::negation(StateFormula::label("failed")),
         right: StateFormula::label("reached"),
-        steps: problem.horizon,
+        steps: problem.horizon(),
     };
-    match &problem.threshold {
+    match problem.threshold() {
         None => Property::value(Resolution::Pmaxmin, path),
         Some(probability) => {
             let comparison = ThresholdComparison::AtLeast;
@@ -262,13 +260,13 @@ fn reach_avoid(problem: &Problem) -> Property {
 fn warnings(problem: &Problem, blocked: usize) -> Vec<String> {
     let mut warnings = Vec::new();
     if blocked > 0 {
-        let ordinary = problem.labels.count(CellKind::Ordinary);
+        let ordinary = problem.labels().count(CellKind::Ordinary);
         warnings.push(format!(
             "in {blocked} of {ordinary} ordinary cells no action is enabled (label \"deadlock\"): their value is 0"
         ));
     }
-    if let Some(cell) = problem.initial_cell
-        && problem.labels.kind(cell) == CellKind::Unsafe
+    if let Some(cell) = problem.initial_cell()
+        && problem.labels().kind(cell) == CellKind::Unsafe
     {
         warnings.push("/initial_state: the cell of the initial state is unsafe".to_owned());
     }

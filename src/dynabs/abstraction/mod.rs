@@ -21,7 +21,7 @@ mod steering;
 mod targets;
 mod windows;
 
-pub use compile::{Abstraction, Guarantee, compile};
+pub use compile::{Abstraction, compile};
 pub use enabled::enabled_actions;
 pub use error::AbstractionError;
 pub use landing::{Count, Landing, RegionCounts, Spread};

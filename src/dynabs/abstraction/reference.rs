@@ -9,8 +9,8 @@ use super::count_table::CountTable;
 use super::landings::{Landings, Placements, for_each_cell};
 use super::states::{OUTSIDE, StateSpace};
 use super::targets::Targets;
-use crate::model_file::Problem;
 use crate::partition::Grid;
+use crate::problem::Problem;
 use crate::statistics::ReferenceIntervals;
 use imdp::model::{MemoryError, Rows, require_memory};
 use imdp::progress::Progress;
@@ -25,14 +25,14 @@ pub(super) fn build(
     states: &StateSpace,
     progress: &dyn Progress,
 ) -> Result<Rows, MemoryError> {
-    let grid: &Grid = &problem.grid;
-    let landings = Landings::new(&problem.noise.samples, placements, None);
+    let grid: &Grid = problem.grid();
+    let landings = Landings::new(&problem.noise().samples, placements, None);
     // 4 bytes of successor and 16 of bounds per entry, twice while chunks are put together.
     require_memory(
         "the rows of the model",
         targets.len() as u64 * landings.row_length(grid) as u64 * 20 * 2,
     )?;
-    let intervals = ReferenceIntervals::new(problem.noise.samples.len() as u64, beta_per_interval);
+    let intervals = ReferenceIntervals::new(problem.noise().samples.len() as u64, beta_per_interval);
     let inside: Vec<u32> = (0..targets.len())
         .into_par_iter()
         .map_init(

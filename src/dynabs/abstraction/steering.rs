@@ -3,8 +3,8 @@
 use super::AbstractionError;
 use super::enabled::{EnabledActions, enabled_actions};
 use super::targets::Targets;
-use crate::model_file::Problem;
 use crate::partition::{CellId, CellKind};
+use crate::problem::{Actions, Problem};
 use crate::system::{Extent, FeedbackLaw, SteeringConstraint};
 use imdp::progress::Progress;
 
@@ -18,12 +18,13 @@ pub(super) struct Steering {
 
 impl Steering {
     pub(super) fn new(problem: &Problem) -> Result<Self, AbstractionError> {
-        let targets = Targets::new(&problem.targets, &problem.grid);
-        let layers = problem.stabilizer.as_ref().map(|stabilizer| &stabilizer.layers);
-        let law = FeedbackLaw::new(&problem.system, layers).ok_or(AbstractionError::NotSteerable)?;
-        let extent = Extent { state: problem.grid.magnitudes(), target: targets.magnitudes() };
+        let Actions::Targets(points) = problem.actions();
+        let targets = Targets::new(points, problem.grid());
+        let layers = problem.stabilizer().map(|stabilizer| &stabilizer.layers);
+        let law = FeedbackLaw::new(problem.system(), layers).ok_or(AbstractionError::NotSteerable)?;
+        let extent = Extent { state: problem.grid().magnitudes(), target: targets.magnitudes() };
         let constraints =
-            law.constraints(&problem.input, layers.map(|layers| layers.abstract_input()), &extent);
+            law.constraints(problem.input(), layers.map(|layers| layers.abstract_input()), &extent);
         Ok(Self { targets, law, extent, constraints })
     }
 
@@ -33,14 +34,14 @@ impl Steering {
         problem: &Problem,
         progress: &dyn Progress,
     ) -> Result<EnabledActions, AbstractionError> {
-        let ordinary: Vec<CellId> = (problem.labels.iter())
+        let ordinary: Vec<CellId> = (problem.labels().iter())
             .filter_map(|(cell, kind)| (kind == CellKind::Ordinary).then_some(cell))
             .collect();
         progress.start("enabled actions", ordinary.len() as u64);
-        let enabled = enabled_actions(&problem.grid, &ordinary, &self.targets, &self.constraints, progress);
+        let enabled = enabled_actions(problem.grid(), &ordinary, &self.targets, &self.constraints, progress);
         progress.finish();
         if enabled.ranges.is_empty() && !ordinary.is_empty() {
-            return Err(AbstractionError::NothingEnabled { stabilized: problem.stabilizer.is_some() });
+            return Err(AbstractionError::NothingEnabled { stabilized: problem.stabilizer().is_some() });
         }
         Ok(enabled)
     }

@@ -3,8 +3,9 @@
 use super::law::InputLaw;
 use super::schedule::{Entry, Schedule};
 use crate::abstraction::{Abstraction, Targets};
-use crate::model_file::Problem;
+use crate::guarantee::{Bound, Guarantee};
 use crate::partition::{CellId, CellKind, CellLookup};
+use crate::problem::Problem;
 use imdp::solver::Answer;
 
 /// A policy of the interval MDP refined to the system: piecewise affine feedback `c(x, k)`.
@@ -27,6 +28,8 @@ pub struct Controller {
     pub(super) schedule: Schedule,
     /// The guaranteed probability of success from every cell at the start.
     bounds: Vec<f64>,
+    guarantee: Guarantee,
+    promised: Bound,
 }
 
 /// What the controller does in a state.
@@ -70,16 +73,27 @@ impl Controller {
     ) -> Result<Self, ControllerError> {
         let policy = answer.solution.policy.as_ref().ok_or(ControllerError::NoPolicy)?;
         let bound = |&state: &u32| answer.values.lower[state as usize];
+        let bounds: Vec<f64> = abstraction.state_of_cell.iter().map(bound).collect();
+        let ordinary = problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
+        let promised = Bound {
+            initial_state: problem.initial_state().map(<[f64]>::to_vec),
+            bound: match problem.initial_cell() {
+                Some(cell) => bounds[cell.index()],
+                None => ordinary.map(|(cell, _)| bounds[cell.index()]).fold(1.0, f64::min),
+            },
+        };
         Ok(Self {
-            lookup: CellLookup::new(&problem.grid),
-            kinds: problem.labels.iter().map(|(_, kind)| kind).collect(),
-            horizon: problem.horizon,
-            group_steps: problem.group_steps,
-            step_inputs: problem.step_system.input_dimension(),
+            lookup: CellLookup::new(problem.grid()),
+            kinds: problem.labels().iter().map(|(_, kind)| kind).collect(),
+            horizon: problem.horizon(),
+            group_steps: problem.group_steps(),
+            step_inputs: problem.step_system().input_dimension(),
             law: InputLaw::new(&abstraction.law),
             points: points(&abstraction.targets),
             schedule: Schedule::new(abstraction, policy),
-            bounds: abstraction.state_of_cell.iter().map(bound).collect(),
+            bounds,
+            guarantee: abstraction.guarantee.clone(),
+            promised,
         })
     }
 
@@ -142,6 +156,21 @@ impl Controller {
     /// The guaranteed probability of success from a state, at the start: 0 outside the partition.
     pub fn bound_at(&self, x: &[f64]) -> f64 {
         self.cell(x).map_or(0.0, |cell| self.bound(cell))
+    }
+
+    /// What holds for this controller, and what that rests on.
+    pub fn guarantee(&self) -> &Guarantee {
+        &self.guarantee
+    }
+
+    /// The bound on the probability of success that is promised.
+    pub fn promised(&self) -> &Bound {
+        &self.promised
+    }
+
+    /// What is promised, as sentences of plain ASCII.
+    pub fn promise(&self) -> Vec<String> {
+        self.guarantee.sentences(&self.promised)
     }
 
     /// What to do in state `x` after `elapsed` grouped steps.

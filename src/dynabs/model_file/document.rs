@@ -1,6 +1,7 @@
 //! A model file as a JSON document, before anything is known of its meaning.
 
-use super::{Diagnostic, ModelFile};
+use super::fields::ModelFile;
+use crate::Diagnostic;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::Value;
 use serde_path_to_error::{Path as ErrorPath, Segment};
@@ -89,11 +90,16 @@ impl Document {
         }
     }
 
+    /// What the model is about, if the file says so.
+    pub fn description(&self) -> Option<&str> {
+        self.value.pointer("/description").and_then(Value::as_str)
+    }
+
     /// Reads the document as a model file: field names and types.
     ///
     /// # Errors
     /// A [`Diagnostic`] with the JSON pointer of the first unknown field or wrong type.
-    pub fn model(&self) -> Result<ModelFile, Diagnostic> {
+    pub(super) fn model(&self) -> Result<ModelFile, Diagnostic> {
         serde_path_to_error::deserialize(&self.value).map_err(|error| {
             let place = pointer(error.path());
             let message = error.into_inner().to_string();

@@ -1,5 +1,6 @@
 //! The fields of a model file.
 
+use crate::problem::{GroupSteps, Horizon};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
@@ -10,101 +11,94 @@ use std::fmt;
 /// `x⁺ = A x + B u + q + η` with `n` states and `p` inputs. Numbers mean the decimals as written.
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct ModelFile {
+pub(super) struct ModelFile {
     /// Where the JSON Schema of this file is; ignored.
     #[serde(rename = "$schema", default)]
-    pub schema: Option<String>,
+    #[expect(dead_code, reason = "for editors")]
+    pub(super) schema: Option<String>,
     /// A short name.
-    pub name: String,
+    pub(super) name: String,
     /// What the model is about, where its numbers come from.
     #[serde(default)]
-    pub description: Option<String>,
+    #[expect(dead_code, reason = "for readers")]
+    pub(super) description: Option<String>,
     /// The dynamics of one step.
-    pub dynamics: DynamicsSpec,
+    pub(super) dynamics: DynamicsSpec,
     /// Samples of the noise, or a distribution to draw them from.
-    pub noise: NoiseSpec,
+    pub(super) noise: NoiseSpec,
     /// The inputs allowed in one step: a box or a polytope.
-    pub input: SetSpec,
+    pub(super) input: SetSpec,
     /// A lower layer of linear feedback that stabilises the system.
     #[serde(default)]
-    pub stabilizer: Option<StabilizerSpec>,
+    pub(super) stabilizer: Option<StabilizerSpec>,
     /// The grid of cells; everything outside counts as failed.
-    pub partition: GridSpec,
-    /// The points that actions steer to: "centers" (of all cells, the default), a grid whose cell centres
+    pub(super) partition: GridSpec,
+    /// The points that actions steer to: "centers" (of all cells, the default), a grid whose cell centers
     /// are the targets, or a list of points.
     #[serde(default)]
-    pub targets: TargetsSpec,
+    pub(super) targets: TargetsSpec,
     /// What the controller is to achieve.
-    pub task: TaskSpec,
+    pub(super) task: TaskSpec,
     /// The state from which the guarantee is wanted; without it every ordinary cell is initial.
     #[serde(default)]
-    pub initial_state: Option<Vec<f64>>,
+    pub(super) initial_state: Option<Vec<f64>>,
     /// How probability intervals are computed from the samples.
     #[serde(default)]
-    pub probabilities: ProbabilitiesSpec,
+    pub(super) probabilities: ProbabilitiesSpec,
 }
 
 /// The dynamics `x⁺ = A x + B u + q + η` of one step.
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct DynamicsSpec {
+pub(super) struct DynamicsSpec {
     /// `A`, n×n, row by row; not singular.
     #[serde(rename = "A")]
-    pub a: Vec<Vec<f64>>,
+    pub(super) a: Vec<Vec<f64>>,
     /// `B`, n×p, row by row.
     #[serde(rename = "B")]
-    pub b: Vec<Vec<f64>>,
+    pub(super) b: Vec<Vec<f64>>,
     /// `q`, n numbers; 0 if absent.
     #[serde(default)]
-    pub q: Option<Vec<f64>>,
+    pub(super) q: Option<Vec<f64>>,
     /// How many steps d become one: an integer, or "auto" (the default) for the smallest number that makes
     /// the grouped `B` of full row rank.
     #[serde(default)]
-    pub group_steps: GroupSteps,
-}
-
-/// How many steps become one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum GroupSteps {
-    /// As few as make the grouped `B` of full row rank.
-    #[default]
-    Auto,
-    /// This many.
-    Steps(u32),
+    pub(super) group_steps: GroupSteps,
 }
 
 /// Where noise samples come from: `samples`, or `gaussian` with `count` and `seed`.
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct NoiseSpec {
+pub(super) struct NoiseSpec {
     /// A file of samples.
     #[serde(default)]
-    pub samples: Option<SamplesSpec>,
+    pub(super) samples: Option<SamplesSpec>,
     /// A normal distribution of the noise of one step.
     #[serde(default)]
-    pub gaussian: Option<GaussianSpec>,
+    pub(super) gaussian: Option<GaussianSpec>,
     /// How many samples of the grouped noise to draw (each from d draws of one step).
     #[serde(default)]
-    pub count: Option<u64>,
+    pub(super) count: Option<u64>,
     /// The seed of the draws; 0 if absent.
     #[serde(default)]
-    pub seed: Option<u64>,
+    pub(super) seed: Option<u64>,
 }
 
 /// A file of noise samples.
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct SamplesSpec {
+pub(super) struct SamplesSpec {
     /// A CSV file without header, one sample of n numbers per line; relative to the model file.
-    pub file: String,
+    pub(super) file: String,
     /// "grouped" if a sample is the noise of d steps together, "step" if it is that of one step.
-    pub of: SampleKind,
+    pub(super) of: SampleKindSpec,
 }
 
 /// What a sample in a file is the noise of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum SampleKind {
+#[schemars(rename = "SampleKind")]
+pub(super) enum SampleKindSpec {
     /// Of d steps together.
     Grouped,
     /// Of one step; d samples are combined into one.
@@ -114,84 +108,84 @@ pub enum SampleKind {
 /// A normal distribution.
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct GaussianSpec {
+pub(super) struct GaussianSpec {
     /// The mean, n numbers; 0 if absent.
     #[serde(default)]
-    pub mean: Option<Vec<f64>>,
+    pub(super) mean: Option<Vec<f64>>,
     /// The covariance, n×n, symmetric and positive semidefinite.
-    pub covariance: Vec<Vec<f64>>,
+    pub(super) covariance: Vec<Vec<f64>>,
 }
 
 /// A set of inputs: a box (`lower`, `upper`) or a polytope `{u : G u ≤ g}`.
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct SetSpec {
+pub(super) struct SetSpec {
     /// The lower corner of a box.
     #[serde(default)]
-    pub lower: Option<Vec<f64>>,
+    pub(super) lower: Option<Vec<f64>>,
     /// The upper corner of a box.
     #[serde(default)]
-    pub upper: Option<Vec<f64>>,
+    pub(super) upper: Option<Vec<f64>>,
     /// The normals of a polytope, one row per half-space.
     #[serde(rename = "G", default)]
-    pub normals: Option<Vec<Vec<f64>>>,
+    pub(super) normals: Option<Vec<Vec<f64>>>,
     /// The offsets of a polytope, one per half-space.
     #[serde(rename = "g", default)]
-    pub offsets: Option<Vec<f64>>,
+    pub(super) offsets: Option<Vec<f64>>,
 }
 
 /// A lower layer `u = −K (x − x̄) + u′` on the grouped system (d·p inputs).
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct StabilizerSpec {
+pub(super) struct StabilizerSpec {
     /// Weights from which the gain is computed.
     #[serde(default)]
-    pub lqr: Option<LqrSpec>,
+    pub(super) lqr: Option<LqrSpec>,
     /// The gain `K` itself, (d·p)×n.
     #[serde(default)]
-    pub gain: Option<Vec<Vec<f64>>>,
+    pub(super) gain: Option<Vec<Vec<f64>>>,
     /// `x̄`, the state to stabilise about; 0 if absent.
     #[serde(default)]
-    pub about: Option<Vec<f64>>,
+    pub(super) about: Option<Vec<f64>>,
     /// `U′`, what is left to the abstraction: a box or polytope of d·p inputs that contains 0.
-    pub abstract_input: SetSpec,
+    pub(super) abstract_input: SetSpec,
 }
 
 /// The weights of a linear-quadratic regulator for the grouped system.
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct LqrSpec {
+pub(super) struct LqrSpec {
     /// `Q`, n×n, symmetric positive definite.
     #[serde(rename = "Q")]
-    pub q: Vec<Vec<f64>>,
+    pub(super) q: Vec<Vec<f64>>,
     /// `R`, (d·p)×(d·p), symmetric positive definite.
     #[serde(rename = "R")]
-    pub r: Vec<Vec<f64>>,
+    pub(super) r: Vec<Vec<f64>>,
     /// Rounds the gain to this many decimals; not at all if absent.
     #[serde(default)]
     #[schemars(range(max = 300))]
-    pub decimals: Option<u32>,
+    pub(super) decimals: Option<u32>,
 }
 
 /// A grid: the box from `lower` to `upper`, cut into equal cells.
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct GridSpec {
+pub(super) struct GridSpec {
     /// The lower corner, n numbers.
-    pub lower: Vec<f64>,
+    pub(super) lower: Vec<f64>,
     /// The upper corner, n numbers.
-    pub upper: Vec<f64>,
+    pub(super) upper: Vec<f64>,
     /// The number of cells in each dimension.
-    pub cells: Vec<u32>,
+    pub(super) cells: Vec<u32>,
 }
 
 /// The points that actions steer to.
 #[derive(Clone, Debug, Default)]
-pub enum TargetsSpec {
-    /// The centres of all cells.
+pub(super) enum TargetsSpec {
+    /// The centers of all cells.
     #[default]
     Centers,
-    /// The centres of the cells of this grid.
+    /// The centers of the cells of this grid.
     Grid(GridSpec),
     /// These points.
     Points(Vec<Vec<f64>>),
@@ -200,67 +194,63 @@ pub enum TargetsSpec {
 /// A reach-avoid task.
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct TaskSpec {
+pub(super) struct TaskSpec {
     /// The goal: a union of boxes; a cell counts if the union contains it.
-    pub goal: Vec<RegionSpec>,
+    pub(super) goal: Vec<RegionSpec>,
     /// What must be avoided: a union of boxes; a cell counts if it meets one. Boxes are half-open,
     /// [lower, upper), like cells.
     #[serde(rename = "unsafe", default)]
-    pub unsafe_: Vec<RegionSpec>,
+    pub(super) unsafe_: Vec<RegionSpec>,
     /// The number of original steps within which the goal must be reached, or "infinite".
-    pub horizon: Horizon,
+    pub(super) horizon: Horizon,
     /// The probability that is wanted, if any.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub threshold: Option<f64>,
+    pub(super) threshold: Option<f64>,
 }
 
 /// A box with possibly unbounded sides.
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct RegionSpec {
+pub(super) struct RegionSpec {
     /// The lower corner, n numbers; null is unbounded.
-    pub lower: Vec<Option<f64>>,
+    pub(super) lower: Vec<Option<f64>>,
     /// The upper corner, n numbers; null is unbounded.
-    pub upper: Vec<Option<f64>>,
-}
-
-/// A number of steps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Horizon {
-    /// No limit.
-    Infinite,
-    /// This many.
-    Steps(u64),
+    pub(super) upper: Vec<Option<f64>>,
 }
 
 /// How probability intervals are computed: `{"mode": "pac", "confidence": 0.99}` (or `"beta"`), or
 /// `{"mode": "reference", "beta_per_interval": 0.01}`.
 #[derive(Clone, Debug, Default, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct ProbabilitiesSpec {
+pub(super) struct ProbabilitiesSpec {
     /// "pac" (the default) is a guarantee; "reference" repeats the published tool's numbers.
     #[serde(default)]
-    pub mode: Mode,
+    pub(super) mode: Mode,
     /// pac: the probability with which all intervals hold together; 0.99 if neither this nor beta is given.
     #[serde(default)]
-    pub confidence: Option<f64>,
+    pub(super) confidence: Option<f64>,
     /// pac: 1 − confidence, where that is easier to write.
     #[serde(default)]
-    pub beta: Option<f64>,
+    pub(super) beta: Option<f64>,
+    /// pac: how many settings are compiled with these samples, 1 if not given. Whoever compiles several and then takes the one
+    /// with the best result writes their number into all of them: each gets this part of beta.
+    #[serde(default)]
+    #[schemars(range(min = 1))]
+    pub(super) sweep: Option<u64>,
     /// pac: rows do not list the cells of this many farthest samples, 0 if not given: with heavy-tailed noise
     /// they stay short. Choose it before looking at the samples.
     #[serde(default)]
-    pub discard: Option<u64>,
+    pub(super) discard: Option<u64>,
     /// reference: the failure probability of one interval.
     #[serde(default)]
-    pub beta_per_interval: Option<f64>,
+    pub(super) beta_per_interval: Option<f64>,
 }
 
 /// Which kind of probability intervals.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum Mode {
+pub(super) enum Mode {
     /// Every claim holds, jointly, with the stated confidence.
     #[default]
     Pac,

@@ -1,22 +1,9 @@
-//! The model file: JSON in, a validated [`Problem`] out, every error with the place it is about.
+//! The model file: a [`Problem`](crate::problem::Problem) as JSON, every error with the place it is about.
 
-mod diagnostic;
 mod document;
 mod fields;
-mod noise;
-mod problem;
-mod regions;
+mod parts;
 mod schema;
-mod stabilizer;
-mod values;
 
-pub use diagnostic::Diagnostic;
 pub use document::{Document, SetArgument};
-pub use fields::{
-    DynamicsSpec, GaussianSpec, GridSpec, GroupSteps, Horizon, LqrSpec, Mode, ModelFile, NoiseSpec,
-    ProbabilitiesSpec, RegionSpec, SampleKind, SamplesSpec, SetSpec, StabilizerSpec, TargetsSpec, TaskSpec,
-};
-pub use noise::{NoiseSource, StepNoise};
-pub use problem::{Probabilities, Problem, TargetPoints};
 pub use schema::{json_schema, starter_model};
-pub use stabilizer::Stabilizer;

@@ -1,6 +1,6 @@
 //! What helps to write a model file: its JSON Schema and a starter.
 
-use super::ModelFile;
+use super::fields::ModelFile;
 
 /// The JSON Schema of the model file, as pretty-printed JSON with a final newline.
 pub fn json_schema() -> String {

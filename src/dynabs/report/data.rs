@@ -24,13 +24,13 @@ pub(super) struct Embedded {
 
 pub(super) fn embed(material: &Material<'_>, view: &View) -> Embedded {
     let problem = material.problem();
-    let cells = problem.grid.num_cells();
+    let cells = problem.grid().num_cells();
     if cells > MOST_CELLS {
         let note = format!("{cells} cells are too many to embed: the plots cannot be changed");
         return Embedded { json: "null".into(), left_out: vec![note] };
     }
     let mut left_out = vec![];
-    if let Some(horizon) = problem.horizon.filter(|horizon| *horizon > material.values.last_step() as u64) {
+    if let Some(horizon) = problem.horizon().filter(|horizon| *horizon > material.values.last_step() as u64) {
         let last = material.values.last_step();
         left_out.push(format!("values after step {last} of {horizon}"));
     }
@@ -51,13 +51,13 @@ pub(super) fn embed(material: &Material<'_>, view: &View) -> Embedded {
         "names": (0..material.dimension()).map(|j| subscripted("x", j + 1)).collect::<Vec<_>>(),
         "valueName": material.value_name(),
         "time": material.time_name(),
-        "group": problem.group_steps,
-        "horizon": problem.horizon,
+        "group": problem.group_steps(),
+        "horizon": problem.horizon(),
         "lastStep": material.last_step(),
         "lower": range(|(lower, _)| lower),
         "upper": range(|(_, upper)| upper),
-        "cells": problem.grid.axes().iter().map(|axis| axis.cells()).collect::<Vec<_>>(),
-        "strides": problem.grid.strides(),
+        "cells": problem.grid().axes().iter().map(|axis| axis.cells()).collect::<Vec<_>>(),
+        "strides": problem.grid().strides(),
         "colours": (0..LEVELS).map(colour).collect::<Vec<_>>(),
         "firstLight": FIRST_LIGHT_LEVEL,
         "values": {"type": "f32", "data": base64(&bytes)},
@@ -66,9 +66,9 @@ pub(super) fn embed(material: &Material<'_>, view: &View) -> Embedded {
         "targets": targets(material),
         "mean": material.noise_mean,
         "ranges": ranges,
-        "goal": regions(&problem.goal, material.dimension()),
-        "unsafe": regions(&problem.unsafe_, material.dimension()),
-        "threshold": problem.threshold.as_ref().map(|threshold| threshold.to_f64()),
+        "goal": regions(problem.goal(), material.dimension()),
+        "unsafe": regions(problem.unsafe_regions(), material.dimension()),
+        "threshold": problem.threshold().map(|threshold| threshold.to_f64()),
         "runs": runs(material),
         "start": material.start,
         "view": {
@@ -84,7 +84,7 @@ pub(super) fn embed(material: &Material<'_>, view: &View) -> Embedded {
 
 /// The targets of every cell by the steps left.
 fn policy(material: &Material<'_>) -> Value {
-    let cells = || (0..material.problem().grid.num_cells()).map(CellId);
+    let cells = || (0..material.problem().grid().num_cells()).map(CellId);
     let mut starts = vec![0];
     for cell in cells() {
         starts.push(starts[starts.len() - 1] + material.controller.entries(cell).len() as u32);
@@ -113,7 +113,7 @@ fn ranges(material: &Material<'_>) -> Option<Value> {
     let abstraction = &material.run.abstraction;
     let choices = abstraction.model.choices();
     let of = |cell: u32| choices.ranges(abstraction.state_of_cell[cell as usize]);
-    let cells = 0..material.problem().grid.num_cells();
+    let cells = 0..material.problem().grid().num_cells();
     let mut starts = vec![0];
     for cell in cells.clone() {
         starts.push(starts[starts.len() - 1] + of(cell).len() as u32);
@@ -134,7 +134,7 @@ fn regions(regions: &[Region], dimension: usize) -> Value {
 }
 
 fn runs(material: &Material<'_>) -> Value {
-    let d = material.problem().group_steps as f64;
+    let d = material.problem().group_steps() as f64;
     let run = |trajectory: &crate::controller::Trajectory| {
         let points = trajectory.steps.iter().map(|step| {
             let time = std::iter::once(compact(step.step as f64 / d));

@@ -14,17 +14,17 @@ use num_traits::{Signed, Zero};
 /// System, inputs, lower layer, partition, task.
 pub(super) fn model(material: &Material<'_>) -> String {
     let problem = material.problem();
-    let d = problem.group_steps;
-    let mut text = format!("<p>One step:</p>\n{}", system(&problem.step_system, "A", "B", "q", "u"));
-    text += &format!("<p>Inputs {}</p>\n", input_set(&problem.step_input, "u", "U"));
+    let d = problem.group_steps();
+    let mut text = format!("<p>One step:</p>\n{}", system(problem.step_system(), "A", "B", "q", "u"));
+    text += &format!("<p>Inputs {}</p>\n", input_set(problem.step_input(), "u", "U"));
     if d > 1 {
         text += &format!(
             "<p>{d} steps grouped into one, with the inputs of the first step first, and inputs in {} :</p>\n{}",
             math(&format!("<msup><mi>U</mi><mn>{d}</mn></msup>")),
-            system(&problem.system, "Â", "B̂", "q̂", "û")
+            system(problem.system(), "Â", "B̂", "q̂", "û")
         );
     }
-    if let Some(stabilizer) = &problem.stabilizer {
+    if let Some(stabilizer) = problem.stabilizer() {
         let layers = &stabilizer.layers;
         let input = if d > 1 { "û" } else { "u" };
         let about = layers.about();
@@ -46,7 +46,7 @@ pub(super) fn model(material: &Material<'_>) -> String {
         );
     }
     let grid: Vec<_> = problem
-        .grid
+        .grid()
         .axes()
         .iter()
         .enumerate()
@@ -64,19 +64,18 @@ pub(super) fn model(material: &Material<'_>) -> String {
     text += &format!("<p>Partition: {}; everything outside counts as failed.</p>\n", grid.join(", "));
     text += &format!(
         "<p>Task: reach the goal {}, avoiding the unsafe region.</p>\n",
-        match problem.horizon {
+        match problem.horizon() {
             Some(steps) => format!("within {} steps", steps * d as u64),
             None => "at any time".to_owned(),
         }
     );
-    text += &boxes("Goal", &problem.goal);
-    text += &boxes("Unsafe region", &problem.unsafe_);
-    let seed = problem.noise.seed.map_or(String::new(), |seed| format!(", drawn with seed {seed}"));
-    let file =
-        problem.noise.file.as_ref().map_or(String::new(), |(name, _)| format!(", from {}", escape(name)));
+    text += &boxes("Goal", problem.goal());
+    text += &boxes("Unsafe region", problem.unsafe_regions());
+    let seed = problem.noise().seed().map_or(String::new(), |seed| format!(", drawn with seed {seed}"));
+    let file = problem.noise().file().map_or(String::new(), |(name, _)| format!(", from {}", escape(name)));
     text += &format!(
         "<p>Noise: {} samples of {}{seed}{file}, of mean {}.</p>\n",
-        problem.noise.samples.len(),
+        problem.noise().samples.len(),
         if d > 1 { format!("{d} steps together") } else { "one step".to_owned() },
         tuple(&material.noise_mean)
     );

@@ -4,8 +4,8 @@ use super::results::CrossChecks;
 use super::values::StepValues;
 use super::view::{Axis, View};
 use crate::controller::{Controller, Decision, Noise, Simulation, Tally, Trajectory};
-use crate::model_file::{Problem, StepNoise};
 use crate::partition::{CellId, CellKind};
+use crate::problem::{Problem, StepNoise};
 use crate::run::Run;
 use imdp::numeric::to_f64;
 use imdp::progress::Progress;
@@ -65,16 +65,19 @@ impl<'a> Material<'a> {
     ) -> Result<Self, AnswerError> {
         let problem = &run.problem;
         let values = StepValues::new(run, answer, solver)?;
-        let start = problem.initial_state.clone().unwrap_or_else(|| typical_state(problem, controller));
-        let noise = match &problem.noise.of_one_step {
+        let start = problem
+            .initial_state()
+            .map(<[f64]>::to_vec)
+            .unwrap_or_else(|| typical_state(problem, controller));
+        let noise = match &problem.noise().of_one_step {
             StepNoise::Gaussian(_) => "the model's Gaussian noise",
             _ => "the model's samples, drawn with replacement",
         };
-        let simulation = Simulation::new(problem, controller, Noise::of(&problem.noise), MOST_STEPS);
+        let simulation = Simulation::new(problem, controller, Noise::of(problem.noise()), MOST_STEPS);
         let tally = simulation.tally(&start, options.seed, options.runs, progress);
         let drawn = 0..options.drawn;
         let trajectories = drawn.map(|run| simulation.trajectory(&start, options.seed, run)).collect();
-        let faces = problem.grid.axes().iter();
+        let faces = problem.grid().axes().iter();
         let faces = faces.map(|axis| (0..=axis.cells()).map(|i| to_f64(&axis.face(i))).collect()).collect();
         let noise_mean = mean(problem);
         Ok(Self {
@@ -111,7 +114,7 @@ impl<'a> Material<'a> {
         (faces[0], faces[faces.len() - 1])
     }
 
-    /// The centre of a cell in one dimension.
+    /// The center of a cell in one dimension.
     pub(super) fn center(&self, dimension: usize, index: u32) -> f64 {
         let faces = &self.faces[dimension];
         (faces[index as usize] + faces[index as usize + 1]) / 2.0
@@ -119,7 +122,7 @@ impl<'a> Material<'a> {
 
     /// The last grouped step of a time axis.
     pub(super) fn last_step(&self) -> usize {
-        if self.problem().horizon.is_some() {
+        if self.problem().horizon().is_some() {
             return self.values.last_step();
         }
         let longest = self.trajectories.iter().map(|trajectory| trajectory.outcome.steps).max();
@@ -128,7 +131,7 @@ impl<'a> Material<'a> {
 
     /// What values are called: in reference mode nothing is promised.
     pub(super) fn value_name(&self) -> &'static str {
-        if self.run.abstraction.guarantee.is_some() {
+        if self.run.abstraction.guarantee.confidence().is_some() {
             "promised probability"
         } else {
             "value (nothing is promised)"
@@ -136,7 +139,7 @@ impl<'a> Material<'a> {
     }
 
     pub(super) fn time_name(&self) -> String {
-        match self.problem().group_steps {
+        match self.problem().group_steps() {
             1 => "step k".to_owned(),
             d => format!("grouped step k ({d} steps each)"),
         }
@@ -145,7 +148,7 @@ impl<'a> Material<'a> {
     /// What is shown at first, and on paper.
     pub(super) fn first_view(&self) -> View {
         let slice = match self.controller.cell(&self.start) {
-            Some(cell) => self.problem().grid.coordinates(cell),
+            Some(cell) => self.problem().grid().coordinates(cell),
             None => vec![0; self.dimension()],
         };
         match self.dimension() {
@@ -164,20 +167,20 @@ impl<'a> Material<'a> {
     }
 }
 
-/// The centre of an ordinary cell from which something is promised: the one with the median promise.
+/// The center of an ordinary cell from which something is promised: the one with the median promise.
 fn typical_state(problem: &Problem, controller: &Controller) -> Vec<f64> {
-    let ordinary = problem.labels.iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
+    let ordinary = problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
     let mut cells: Vec<CellId> = ordinary.map(|(cell, _)| cell).collect();
     cells.sort_by(|&a, &b| controller.bound(a).total_cmp(&controller.bound(b)).then(a.cmp(&b)));
     let first = cells.partition_point(|&cell| controller.bound(cell) <= 0.0);
     let cells = if first < cells.len() { &cells[first..] } else { &cells[..] };
     let cell = cells.get(cells.len() / 2).copied().unwrap_or(CellId(0));
-    let coordinates = problem.grid.coordinates(cell);
-    problem.grid.axes().iter().zip(coordinates).map(|(axis, i)| to_f64(&axis.center(i))).collect()
+    let coordinates = problem.grid().coordinates(cell);
+    problem.grid().axes().iter().zip(coordinates).map(|(axis, i)| to_f64(&axis.center(i))).collect()
 }
 
 fn mean(problem: &Problem) -> Vec<f64> {
-    let samples = &problem.noise.samples;
+    let samples = &problem.noise().samples;
     let mut sum = vec![0.0; samples.dimension()];
     for sample in samples.iter() {
         sum.iter_mut().zip(sample).for_each(|(sum, x)| *sum += x);

@@ -32,14 +32,14 @@ pub fn page(material: &Material<'_>) -> Result<String, ReportError> {
     let (run, problem) = (material.run, material.problem());
     let view = material.first_view();
     let embedded = embed(material, &view);
-    let description = run.document.model().ok().and_then(|model| model.description).unwrap_or_default();
+    let description = run.document.description().unwrap_or_default();
     let left_out = match &embedded.left_out[..] {
         [] => String::new(),
         list => format!("<p>Left out of this page for its size: {}.</p>\n", escape(&list.join("; "))),
     };
     let values = [
-        ("name", escape(&problem.name)),
-        ("description", escape(&description)),
+        ("name", escape(problem.name())),
+        ("description", escape(description)),
         ("mode", escape(&run.manifest.mode)),
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
         ("style", format!("{PLOT_STYLE}{STYLE}")),

@@ -10,7 +10,7 @@ use crate::controller::{Decision, Trajectory};
 /// The most arrows along one side.
 const MOST_ARROWS: u32 = 20;
 
-/// An arrow from the centre of every few cells towards the mean of the next state, shortened to its place.
+/// An arrow from the center of every few cells towards the mean of the next state, shortened to its place.
 pub(super) fn arrows(material: &Material<'_>, view: &View, frame: &Frame) -> String {
     let (columns, rows) = view.size(material);
     let (stride_x, stride_y) = (columns.div_ceil(MOST_ARROWS), rows.div_ceil(MOST_ARROWS));
@@ -58,7 +58,7 @@ fn arrow((x, y): (f64, f64), (dx, dy): (f64, f64), most: f64) -> String {
 
 /// The runs: lines through the grouped instants, the failed ones last and so on top.
 pub(super) fn runs(material: &Material<'_>, view: &View, frame: &Frame) -> String {
-    let d = material.problem().group_steps as f64;
+    let d = material.problem().group_steps() as f64;
     let mut drawn = [String::new(), String::new()];
     for trajectory in &material.trajectories {
         let pair = |step: u64, state: &[f64]| {

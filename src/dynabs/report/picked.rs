@@ -12,7 +12,7 @@ pub(super) fn facts(
     step: usize,
 ) -> Vec<(&'static str, &'static str, String)> {
     let problem = material.problem();
-    let coordinates = problem.grid.coordinates(cell);
+    let coordinates = problem.grid().coordinates(cell);
     let sides = coordinates.iter().enumerate().map(|(j, &i)| {
         let faces = &material.faces()[j];
         let (lower, upper) = (short(faces[i as usize]), short(faces[i as usize + 1]));

@@ -33,7 +33,7 @@ pub(super) fn section(material: &Material<'_>, view: &View) -> Plot {
         id,
         width: 720.0,
         height: 284.0,
-        title: format!("{}: {} along {name}{at}", material.problem().name, material.value_name()),
+        title: format!("{}: {} along {name}{at}", material.problem().name(), material.value_name()),
         description: "A step function, constant in every cell; goal and unsafe region are bands.".into(),
         content,
     }
@@ -55,7 +55,7 @@ fn bands(material: &Material<'_>, view: &View, along: usize, frame: &Frame) -> S
         list.iter().filter(on_line).map(band).collect()
     };
     let problem = material.problem();
-    let (avoid, goal) = (path(&problem.unsafe_), path(&problem.goal));
+    let (avoid, goal) = (path(problem.unsafe_regions()), path(problem.goal()));
     let mut text = String::new();
     if !avoid.is_empty() {
         text += &format!("<path fill=\"url(#section-hatch)\" d=\"{avoid}\"/>");
@@ -75,7 +75,7 @@ fn curve(material: &Material<'_>, view: &View, along: usize, frame: &Frame) -> S
     let (mut d, mut before) = (String::new(), String::new());
     for (i, &face) in faces[..cells].iter().enumerate() {
         coordinates[along] = i as u32;
-        let value = values[material.problem().grid.cell(&coordinates).index()];
+        let value = values[material.problem().grid().cell(&coordinates).index()];
         let y = coordinate(frame.y.at(f64::from(value)));
         match i {
             0 => d += &format!("M{} {y}", frame.left),
@@ -85,7 +85,7 @@ fn curve(material: &Material<'_>, view: &View, along: usize, frame: &Frame) -> S
         before = y;
     }
     d += &format!("H{}", coordinate(frame.x.at(faces[cells])));
-    let threshold = material.problem().threshold.as_ref().map_or(String::new(), |threshold| {
+    let threshold = material.problem().threshold().map_or(String::new(), |threshold| {
         let y = coordinate(frame.y.at(threshold.to_f64()));
         format!("<path class=\"threshold\" d=\"M{} {y}h{}\"/>", frame.left, frame.width)
     });

@@ -4,6 +4,7 @@ use super::markup::{escape, table};
 use super::material::Material;
 use super::numbers::{short, tuple};
 use super::results::CrossChecks;
+use crate::guarantee::Evidence;
 use crate::run::Run;
 
 /// A number with thin spaces between groups of three digits.
@@ -38,7 +39,7 @@ pub(super) fn simulation(material: &Material<'_>) -> String {
     let share = |n: u64| short(n as f64 / tally.runs as f64);
     let mut rows = vec![row(&["satisfied the task", &count(tally.satisfied), &share(tally.satisfied)])];
     rows.extend(ends.iter().filter(|(_, n)| *n > 0).map(|(name, n)| row(&[name, &count(*n), &share(*n)])));
-    if material.problem().group_steps > 1 {
+    if material.problem().group_steps() > 1 {
         let n = tally.unsafe_between;
         rows.push(row(&[
             "met the unsafe region between grouped instants (not covered)",
@@ -62,7 +63,7 @@ pub(super) fn simulation(material: &Material<'_>) -> String {
         frequency.frequency,
         frequency.lower,
         frequency.upper,
-        crate::controller::export::lower_bound_text(bound),
+        crate::guarantee::lower_bound_text(bound),
         table(&caption, &["runs that", "number", "share"], &rows)
     )
 }
@@ -70,7 +71,7 @@ pub(super) fn simulation(material: &Material<'_>) -> String {
 /// What was built and how long it took here.
 pub(super) fn sizes(material: &Material<'_>) -> String {
     let manifest = &material.run.manifest;
-    let grid = &material.problem().grid;
+    let grid = material.problem().grid();
     let per_axis: Vec<_> = grid.axes().iter().map(|axis| axis.cells().to_string()).collect();
     let factors = if per_axis.len() > 1 { per_axis.join(" × ") + " = " } else { String::new() };
     let mut rows = vec![
@@ -98,25 +99,32 @@ pub(super) fn sizes(material: &Material<'_>) -> String {
 
 /// What the failure probability was spent on.
 pub(super) fn budget(run: &Run) -> String {
-    let probabilities = &run.manifest.probabilities;
-    let Some(beta) = probabilities.beta else {
-        let level = probabilities.beta_per_interval.map_or(String::new(), short);
-        return format!(
-            "<p>Reference mode has no budget: every interval has the level {level} for itself.</p>\n"
-        );
+    let samples = match &run.manifest.guarantee.evidence {
+        Evidence::Samples(samples) => samples,
+        Evidence::Published { beta_per_interval } => {
+            return format!(
+                "<p>Reference mode has no budget: every interval has the level {} for itself.</p>\n",
+                short(*beta_per_interval)
+            );
+        }
     };
     let line = |a: &crate::statistics::Allocation| {
         let events = if a.events < 1e15 { count(a.events as u64) } else { short(a.events) };
         row(&[&escape(&a.family), &events, &short(a.beta)])
     };
-    let rows: Vec<_> = probabilities.budget.iter().map(line).collect();
-    let unseen = probabilities.unseen_mass.map_or(String::new(), |mass| {
-        format!(
-            "<p>At most {} of the noise's probability lies outside the window of cells that a row lists.</p>\n",
-            short(mass)
-        )
-    });
-    let caption = format!("How β = {} was spent; by the union bound all events hold together", short(beta));
+    let rows: Vec<_> = samples.budget.iter().map(line).collect();
+    let unseen = format!(
+        "<p>At most {} of the noise's probability lies outside the window of cells that a row lists.</p>\n",
+        short(samples.unseen_mass)
+    );
+    let part = match samples.sweep {
+        1 => String::new(),
+        settings => format!(", of which each of {settings} settings has its part,"),
+    };
+    let caption = format!(
+        "How β = {}{part} was spent; by the union bound all events hold together",
+        short(samples.beta)
+    );
     table(&caption, &["family of events", "events", "β"], &rows) + &unseen
 }
 

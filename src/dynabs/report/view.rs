@@ -40,12 +40,12 @@ impl View {
                 self.step
             }
         };
-        (material.problem().grid.cell(&coordinates), step)
+        (material.problem().grid().cell(&coordinates), step)
     }
 
     /// The numbers of columns and rows.
     pub(super) fn size(&self, material: &Material<'_>) -> (u32, u32) {
-        let cells = |j: usize| material.problem().grid.axes()[j].cells();
+        let cells = |j: usize| material.problem().grid().axes()[j].cells();
         let columns = match self.across {
             Axis::Time => material.last_step() as u32 + 1,
             Axis::State(j) => cells(j),
@@ -84,7 +84,7 @@ impl View {
         (across, subscripted("x", self.up + 1))
     }
 
-    /// ` at x₃ = 1, …`: where the centre of the cell lies in some dimensions; nothing for none.
+    /// ` at x₃ = 1, …`: where the center of the cell lies in some dimensions; nothing for none.
     pub(super) fn at(&self, material: &Material<'_>, dimensions: impl Iterator<Item = usize>) -> String {
         let center =
             |j: usize| format!("{} = {}", subscripted("x", j + 1), short(material.center(j, self.slice[j])));

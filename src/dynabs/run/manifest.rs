@@ -3,19 +3,19 @@
 use super::pruning::PruningReport;
 use super::row_states::RowStatesReport;
 use crate::abstraction::Abstraction;
-use crate::model_file::{Document, Problem};
-use crate::statistics::Allocation;
+use crate::guarantee::Guarantee;
+use crate::model_file::Document;
+use crate::problem::Problem;
 use imdp::formats::prism::RAISED_LOWER_BOUND;
 use imdp::formats::sha256_hex;
-use imdp::numeric::{Rational, from_decimal, to_f64};
+
 use imdp::property::Probability;
-use num_traits::One;
 use serde::{Deserialize, Serialize};
 
 /// The format of the manifest itself.
 const FORMAT: &str = "dynabs run";
 /// Its version.
-const FORMAT_VERSION: u32 = 1;
+const FORMAT_VERSION: u32 = 2;
 
 /// What went into a run and what came out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -40,10 +40,8 @@ pub struct Manifest {
     pub row_entries: u64,
     /// `pac` or `reference`.
     pub mode: String,
-    /// The probability with which all claims hold together; none in reference mode.
-    pub confidence: Option<f64>,
-    /// How the intervals came about.
-    pub probabilities: ProbabilityReport,
+    /// What the intervals promise, and what that rests on.
+    pub guarantee: Guarantee,
     /// The task's horizon.
     pub horizon: Option<GroupedHorizon>,
     /// The number of original steps that one model step stands for.
@@ -80,21 +78,6 @@ pub struct Manifest {
     pub inputs: Vec<InputFile>,
     /// The files written, but for this one.
     pub outputs: Vec<OutputFile>,
-}
-
-/// How probability intervals came about.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ProbabilityReport {
-    /// The probability that some claim fails, at most; none in reference mode.
-    pub beta: Option<f64>,
-    /// The families of events that it was split over.
-    pub budget: Vec<Allocation>,
-    /// The bound on the mass outside the window of cells that a row lists.
-    pub unseen_mass: Option<f64>,
-    /// In reference mode, the failure probability of one interval.
-    pub beta_per_interval: Option<f64>,
-    /// Which properties the claim is about.
-    pub covers: String,
 }
 
 /// A horizon in original and in model steps.
@@ -141,78 +124,50 @@ impl Manifest {
     /// Describes the compilation of `problem`; files are added by whoever writes them.
     pub fn new(document: &Document, source: &str, problem: &Problem, abstraction: &Abstraction) -> Self {
         let size = abstraction.model.size();
-        let guarantee = abstraction.guarantee.as_ref();
-        let d = problem.group_steps as u64;
+        let d = problem.group_steps() as u64;
         Self {
             format: FORMAT.into(),
             format_version: FORMAT_VERSION,
             version: env!("CARGO_PKG_VERSION").into(),
-            name: problem.name.clone(),
+            name: problem.name().to_owned(),
             states: size.states,
             choices: size.choices,
             transitions: size.transitions,
             rows: size.rows,
             row_entries: size.entries,
-            mode: if guarantee.is_some() { "pac" } else { "reference" }.into(),
-            confidence: guarantee.and_then(|guarantee| complement(guarantee.beta)),
-            probabilities: ProbabilityReport::new(problem, abstraction),
+            mode: abstraction.guarantee.mode().into(),
+            guarantee: abstraction.guarantee.clone(),
             horizon: problem
-                .horizon
+                .horizon()
                 .map(|steps| GroupedHorizon { model_steps: steps, original_steps: steps * d }),
             group_steps: d,
             property: abstraction.property.to_string(),
-            threshold: problem.threshold.as_ref().map(Probability::to_f64),
-            initial_state: problem.initial_state.clone(),
-            initial_model_state: problem.initial_cell.map(|cell| abstraction.state_of_cell[cell.index()]),
+            threshold: problem.threshold().map(Probability::to_f64),
+            initial_state: problem.initial_state().map(<[f64]>::to_vec),
+            initial_model_state: problem.initial_cell().map(|cell| abstraction.state_of_cell[cell.index()]),
             stabilizer: LayerReport::new(problem),
             row_states: None,
             pruning: None,
             prism_lower_bound: RAISED_LOWER_BOUND,
             prism_lower_bound_note: lower_bound_note(problem),
-            samples: problem.noise.samples.len() as u64,
-            seed: problem.noise.seed,
-            warnings: problem.warnings.iter().chain(&abstraction.warnings).cloned().collect(),
+            samples: problem.noise().samples.len() as u64,
+            seed: problem.noise().seed(),
+            warnings: problem.warnings().iter().chain(&abstraction.warnings).cloned().collect(),
             set: vec![],
             inputs: inputs(document, source, problem),
             outputs: vec![],
         }
     }
 
-    /// Whether this is a manifest of ours.
-    pub fn is_ours(&self) -> bool {
-        self.format == FORMAT
-    }
-}
-
-impl ProbabilityReport {
-    fn new(problem: &Problem, abstraction: &Abstraction) -> Self {
-        match &abstraction.guarantee {
-            Some(guarantee) => Self {
-                beta: Some(guarantee.beta),
-                budget: guarantee.budget.clone(),
-                unseen_mass: Some(guarantee.unseen_mass),
-                beta_per_interval: None,
-                covers: "lower bounds (Pmaxmin, Pminmin) of formulas that are false from \"failed\" on, and upper \
-                         bounds with maximising nature of F \"failed\""
-                    .into(),
-            },
-            None => Self {
-                beta: None,
-                budget: vec![],
-                unseen_mass: None,
-                beta_per_interval: match problem.probabilities {
-                    crate::model_file::Probabilities::Reference { beta_per_interval } => Some(beta_per_interval),
-                    crate::model_file::Probabilities::Pac { .. } => None,
-                },
-                covers: "nothing: these intervals repeat the published tool's and are no guarantee".into(),
-            },
-        }
+    /// Whether a manifest with this `format` is one of ours.
+    pub(super) fn is_format(format: &str) -> bool {
+        format == FORMAT
     }
 }
 
 impl LayerReport {
     fn new(problem: &Problem) -> Option<Self> {
-        let stabilizer = problem.stabilizer.as_ref()?;
+        let stabilizer = problem.stabilizer()?;
         let gain = stabilizer.layers.gain().to_f64();
         Some(Self {
             gain: gain.row_iter().map(|row| row.iter().copied().collect()).collect(),
@@ -227,13 +182,8 @@ impl LayerReport {
     }
 }
 
-/// `1 − β` for the decimal `β`: 0.99 for 0.01.
-fn complement(beta: f64) -> Option<f64> {
-    from_decimal(beta).map(|beta| to_f64(&(Rational::one() - beta)))
-}
-
 fn lower_bound_note(problem: &Problem) -> String {
-    if problem.horizon.is_some() {
+    if problem.horizon().is_some() {
         "model.tra raises lower bounds of 0 to this: the value moves by at most horizon × row length × this"
             .into()
     } else {
@@ -247,6 +197,6 @@ fn inputs(document: &Document, source: &str, problem: &Problem) -> Vec<InputFile
     let base = |name: &str| name.rsplit(['/', '\\']).next().unwrap_or(name).to_owned();
     let file = |name: &str, text: &str| InputFile { name: base(name), sha256: sha256_hex(text.as_bytes()) };
     let model = file(&document.name, source);
-    let noise = problem.noise.file.as_ref().map(|(name, text)| file(name, text));
+    let noise = problem.noise().file().map(|(name, text)| file(name, text));
     std::iter::once(model).chain(noise).collect()
 }

@@ -1,10 +1,12 @@
 //! Writing all files of a run.
 
+use super::appearance::{NOISE, PROBLEM};
 use super::manifest::Manifest;
 use super::row_states::RowStatesReport;
 use super::staging::{RunDirectoryError, Staging};
 use crate::abstraction::Abstraction;
-use crate::model_file::{Document, Problem};
+use crate::model_file::Document;
+use crate::problem::Problem;
 use imdp::formats::row_states::RowStates;
 use imdp::formats::umb::Compression;
 use imdp::formats::{Encoding, Format, ModelWriter, native};
@@ -25,12 +27,6 @@ pub struct WriteOptions {
 
 /// The name of the native model in a run's directory.
 pub const NATIVE_MODEL: &str = "model.dynabs";
-
-/// The name of the problem in a run's directory.
-pub(super) const PROBLEM: &str = "problem.json";
-
-/// The name of the noise samples in a run's directory.
-const NOISE: &str = "noise.csv";
 
 /// Writes the directory `target`: the model in the formats asked for, the native model, the property, the problem, the samples, the manifest.
 ///
@@ -77,9 +73,9 @@ pub fn write_run(
     staging.write(NATIVE_MODEL, |out| native::write(model, out))?;
     staging.write("model.props", |out| writeln!(out, "{}", abstraction.property))?;
     staging.write(PROBLEM, |out| out.write_all(self_contained(document, problem).as_bytes()))?;
-    staging.write(NOISE, |out| match &problem.noise.file {
+    staging.write(NOISE, |out| match problem.noise().file() {
         Some((_, text)) => out.write_all(text.as_bytes()),
-        None => out.write_all(problem.noise.samples.to_csv().as_bytes()),
+        None => out.write_all(problem.noise().samples.to_csv().as_bytes()),
     })?;
     manifest.outputs = staging.files().to_vec();
     staging.commit(&manifest)?;
@@ -89,7 +85,7 @@ pub fn write_run(
 /// The model file after `--set`, referring to the samples beside it.
 fn self_contained(document: &Document, problem: &Problem) -> String {
     let mut value = document.value.clone();
-    if problem.noise.file.is_some()
+    if problem.noise().file().is_some()
         && let Some(file) = value.pointer_mut("/noise/samples/file")
     {
         *file = NOISE.into();

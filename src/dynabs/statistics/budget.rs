@@ -76,11 +76,6 @@ impl ConfidenceBudget {
         Ok(Grant { per_weight: beta / Rational::from_integer(weight.clone()) })
     }
 
-    /// The whole budget.
-    pub fn total(&self) -> f64 {
-        to_f64(&self.total)
-    }
-
     /// What it was spent on.
     pub fn allocations(&self) -> &[Allocation] {
         &self.allocations

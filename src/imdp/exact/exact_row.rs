@@ -289,8 +289,14 @@ mod tests {
     fn supports_of_maxima_share_ties() {
         let successors = [0, 1, 2, 3];
         let row = row(&[(0.0, 0.5), (0.0, 0.5), (0.0, 1.0), (0.1, 0.1)]).unwrap();
-        assert_eq!(row.maximal_support(&successors, &exact_values(&[0.5, 1.0, 0.5, 0.0])), [true, true, true, true]);
-        assert_eq!(row.maximal_support(&successors, &exact_values(&[1.0, 1.0, 0.5, 0.0])), [true, true, false, true]);
+        assert_eq!(
+            row.maximal_support(&successors, &exact_values(&[0.5, 1.0, 0.5, 0.0])),
+            [true, true, true, true]
+        );
+        assert_eq!(
+            row.maximal_support(&successors, &exact_values(&[1.0, 1.0, 0.5, 0.0])),
+            [true, true, false, true]
+        );
         assert_eq!(row.maximal_support(&successors, &exact_values(&[0.0; 4])), [true; 4]);
     }
 

@@ -10,6 +10,7 @@ mod interval_mdp;
 mod labels;
 mod memory;
 mod restrict;
+mod rewards;
 mod rows;
 
 pub use choices::{Choices, ChoicesBuilder, RowRange};
@@ -17,8 +18,9 @@ pub use exact_bounds::{End, ExactBound};
 pub use fixedbitset::FixedBitSet as StateSet;
 pub use interval_mdp::{ActionNames, ImdpError, IntervalMdp, ModelKind, Parts, Size};
 pub use labels::{Labels, StateVariable, StateVariables, VariableValues};
-pub use memory::{MemoryError, available_memory, require_memory};
+pub use memory::{MemoryError, MemoryLimit, available_memory, require_memory};
 pub use restrict::restrict;
+pub use rewards::{RewardError, RewardStructure, Rewards};
 pub use rows::{Row, RowError, Rows};
 
 /// A state of an interval MDP, numbered from 0.

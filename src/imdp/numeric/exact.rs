@@ -158,7 +158,9 @@ mod tests {
 
     #[test]
     fn shortest_decimals_need_no_exact_value() {
-        for text in ["0.1", "0.10", "1e-1", "1", "0", "0.000", "0.30000000000000004", "2/5", "5e-324", "10e-1"] {
+        for text in
+            ["0.1", "0.10", "1e-1", "1", "0", "0.000", "0.30000000000000004", "2/5", "5e-324", "10e-1"]
+        {
             assert_eq!(exact(text), None, "{text}");
         }
     }

@@ -69,19 +69,26 @@ impl fmt::Display for Status {
 }
 
 /// Counts iterations and says when to stop.
-pub(super) struct Control<'a> {
+pub struct Control<'a> {
     options: &'a SolverOptions<'a>,
     start: Instant,
+    /// The number of iterations done.
     pub iterations: u64,
 }
 
 impl<'a> Control<'a> {
-    pub(super) fn new(options: &'a SolverOptions<'a>) -> Self {
+    /// The clock starts now.
+    pub fn new(options: &'a SolverOptions<'a>) -> Self {
         Self { options, start: Instant::now(), iterations: 0 }
     }
 
+    /// What is asked for.
+    pub fn options(&self) -> &'a SolverOptions<'a> {
+        self.options
+    }
+
     /// Why to stop now, if so.
-    pub(super) fn stop(&self) -> Option<Status> {
+    pub fn stop(&self) -> Option<Status> {
         if self.options.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
             Some(Status::Interrupted)
         } else if self.iterations >= self.options.max_iterations {
@@ -94,7 +101,7 @@ impl<'a> Control<'a> {
     }
 
     /// Notes that an iteration is done.
-    pub(super) fn done(&mut self, gap: f64) {
+    pub fn done(&mut self, gap: f64) {
         self.iterations += 1;
         if let Some(progress) = self.options.progress {
             progress(self.iterations, gap);

@@ -17,13 +17,13 @@ pub struct Policy {
 
 impl Policy {
     /// One choice per state, [`NO_CHOICE`] for none.
-    pub(super) fn stationary(choices: &[u32]) -> Self {
+    pub fn stationary(choices: &[u32]) -> Self {
         let changes = choices.iter().enumerate().filter(|(_, choice)| **choice != NO_CHOICE);
         Self::assemble(None, choices.len(), &changes.map(|(s, &c)| (s as StateId, 1, c)).collect::<Vec<_>>())
     }
 
     /// From `(state, steps left, choice)`, ascending in the steps left for every state.
-    pub(super) fn time_varying(horizon: u64, states: usize, changes: &[(StateId, u64, u32)]) -> Self {
+    pub fn time_varying(horizon: u64, states: usize, changes: &[(StateId, u64, u32)]) -> Self {
         Self::assemble(Some(horizon), states, changes)
     }
 
@@ -78,8 +78,8 @@ impl Policy {
     }
 }
 
-/// Stands for "no choice".
-pub(super) const NO_CHOICE: u32 = u32::MAX;
+/// Stands for "no choice" in [`Policy::stationary`].
+pub const NO_CHOICE: u32 = u32::MAX;
 
 /// The first choice of a state whose row satisfies a condition.
 pub(super) fn first_choice(choices: &Choices, state: StateId, holds: impl Fn(RowId) -> bool) -> Option<u32> {

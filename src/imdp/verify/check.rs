@@ -5,7 +5,7 @@ use super::one_step::{ExactRows, NO_CHOICE, SideProof};
 use super::ranks::check_ranks;
 use super::task::Task;
 use super::{Rejection, Side};
-use crate::certificate::{Certificate, Evidence, Inductive, ModelFile, Step};
+use crate::certificate::{Certificate, Evidence, FileDigest, Inductive, Step};
 use crate::model::{IntervalMdp, StateId};
 use crate::numeric::{Rational, one_minus_down, one_minus_up};
 use crate::property::Verdict;
@@ -35,7 +35,7 @@ pub struct Proved {
 pub fn check(
     certificate: &Certificate,
     model: &IntervalMdp,
-    files: &[ModelFile],
+    files: &[FileDigest],
 ) -> Result<Proved, Rejection> {
     check_files(&certificate.files, files)?;
     let found = model.num_states() as u64;
@@ -68,12 +68,12 @@ pub fn check(
     Ok(Proved { lower, upper, verdict, states: found, steps, rows: evaluated })
 }
 
-fn check_files(expected: &[ModelFile], found: &[ModelFile]) -> Result<(), Rejection> {
+fn check_files(expected: &[FileDigest], found: &[FileDigest]) -> Result<(), Rejection> {
     let missing = || "missing".to_owned();
-    let digest = |files: &[ModelFile], kind: &str| {
+    let digest = |files: &[FileDigest], kind: &str| {
         files.iter().find(|file| file.kind == kind).map_or_else(missing, |file| file.sha256.clone())
     };
-    for ModelFile { kind, .. } in expected.iter().chain(found) {
+    for FileDigest { kind, .. } in expected.iter().chain(found) {
         let (expected, found) = (digest(expected, kind), digest(found, kind));
         if expected != found {
             return Err(Rejection::Model { kind: kind.clone(), found, expected });
@@ -129,8 +129,12 @@ impl Proof<'_> {
         self.assign(&inductive.choices, "choices", None, |proof, s, choice| proof.choices[s] = *choice)?;
         self.assign(&inductive.lower, "lower bounds", None, |_, s, value| lower.set(s, *value))?;
         self.assign(&inductive.upper, "upper bounds", None, |_, s, value| upper.set(s, *value))?;
-        self.assign(exact_lower, "exact lower bounds", None, |_, s, value| lower.set_exact(s, value.clone()))?;
-        self.assign(exact_upper, "exact upper bounds", None, |_, s, value| upper.set_exact(s, value.clone()))?;
+        self.assign(exact_lower, "exact lower bounds", None, |_, s, value| {
+            lower.set_exact(s, value.clone())
+        })?;
+        self.assign(exact_upper, "exact upper bounds", None, |_, s, value| {
+            upper.set_exact(s, value.clone())
+        })?;
         self.assign(&inductive.ranks, "ranks", None, |_, s, rank| ranks[s] = *rank)?;
         self.lower.values = lower;
         self.upper.values = upper;
@@ -188,7 +192,8 @@ impl Proof<'_> {
             if !Side::Upper.follows(upper, high) {
                 return Err(Rejection::Claim { side: Side::Upper, claimed: upper, proved: high, state });
             }
-            verdicts.extend(self.task.objective.threshold.as_ref().map(|t| t.decide_exactly(&exact.0, &exact.1)));
+            verdicts
+                .extend(self.task.objective.threshold.as_ref().map(|t| t.decide_exactly(&exact.0, &exact.1)));
         }
         Ok(self.task.objective.threshold.as_ref().map(|_| Verdict::in_all(verdicts)))
     }

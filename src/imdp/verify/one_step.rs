@@ -1,7 +1,7 @@
 //! One application of the operator: whether bounds follow from the bounds one step later.
 
-use super::bounds::Bounds;
 use super::Rejection;
+use super::bounds::Bounds;
 use super::extremum::Extremum;
 use super::side::Side;
 use super::task::Task;
@@ -83,12 +83,7 @@ impl<'a> SideProof<'a> {
     /// Checks that `next` follows from `values` in one step, and makes it the new `values`.
     ///
     /// `choices` is what the policy does in that step.
-    pub(super) fn step(
-        &mut self,
-        next: Bounds,
-        choices: &[u32],
-        step: Option<u64>,
-    ) -> Result<(), Rejection> {
+    pub(super) fn step(&mut self, next: Bounds, choices: &[u32], step: Option<u64>) -> Result<(), Rejection> {
         if self.follows_policy {
             let chosen = self.chosen_rows(&next, choices, step)?;
             let rows: StateSet = chosen.iter().map(|&(_, row)| row as usize).collect();
@@ -133,8 +128,9 @@ impl<'a> SideProof<'a> {
         chosen: &[(usize, RowId)],
         step: Option<u64>,
     ) -> Result<(), Rejection> {
-        let fails =
-            |(s, row): &&(usize, RowId)| !self.side.follows(next.double(*s), self.expectations[*row as usize]);
+        let fails = |(s, row): &&(usize, RowId)| {
+            !self.side.follows(next.double(*s), self.expectations[*row as usize])
+        };
         match chosen.iter().filter(|(s, _)| next.fraction(*s).is_none()).find(fails) {
             Some(&(s, row)) => Err(self.rejection(next, s, row, step)),
             None => Ok(()),
@@ -156,7 +152,14 @@ impl<'a> SideProof<'a> {
 
     fn rejection(&self, next: &Bounds, s: usize, row: RowId, step: Option<u64>) -> Rejection {
         let expectation = self.expectations[row as usize];
-        Rejection::Bound { step, state: s as StateId, side: self.side, bound: next.double(s), row, expectation }
+        Rejection::Bound {
+            step,
+            state: s as StateId,
+            side: self.side,
+            bound: next.double(s),
+            row,
+            expectation,
+        }
     }
 
     /// Checks the bounds that are fractions, which no rounded expectation can be compared with.

@@ -5,7 +5,7 @@ use super::super::landings::Landings;
 use super::super::targets::Targets;
 use super::PacRows;
 use super::bounds::{BoundTable, Interval};
-use crate::model_file::Problem;
+use crate::problem::Problem;
 use rayon::prelude::*;
 use std::borrow::Cow;
 
@@ -21,7 +21,7 @@ pub(super) struct Ground<'a> {
 
 impl<'a> Ground<'a> {
     pub(super) fn new(rows: &'a PacRows<'_>, target: usize) -> Self {
-        let grid = &rows.problem.grid;
+        let grid = rows.problem.grid();
         let mut origin = vec![0; grid.dimension()];
         let (landing, windows) = rows.landings.of(rows.targets, target, grid, &mut origin);
         let intervals = match &rows.shared {
@@ -41,7 +41,7 @@ pub(super) fn cell_events(
     targets: &Targets,
     problem: &Problem,
 ) -> impl Iterator<Item = (Count, u64)> {
-    let grid = &problem.grid;
+    let grid = problem.grid();
     let events = |landing: &Landing, from: &[i32]| {
         let squares = squared_distances(landing.table(), from);
         landing.counts().iter().copied().zip(squares).collect::<Vec<_>>()

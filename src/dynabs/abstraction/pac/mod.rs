@@ -40,19 +40,20 @@ mod bounds;
 mod ground;
 mod levels;
 
+use super::AbstractionError;
 use super::landing::{RegionCounts, Spread};
 use super::landings::{Landings, Placements, for_each_cell, is_inside};
 use super::outcomes::{Outcome, Outcomes};
 use super::states::{FAILED, REACHED, StateSpace};
 use super::targets::Targets;
 use super::windows::{Shape, Windows, shape_samples};
-use super::{AbstractionError, Guarantee};
-use crate::model_file::Problem;
+use crate::guarantee::SampleEvidence;
+use crate::problem::Problem;
 use crate::statistics::{ConfidenceBudget, upper_bound};
 use bounds::{BoundTable, DIGITS, Interval};
 use ground::{Ground, cell_events, intervals};
 use imdp::model::{Rows, require_memory};
-use imdp::numeric::{Rational, round_decimal_down, round_decimal_up};
+use imdp::numeric::{Rational, round_decimal_down, round_decimal_up, to_f64};
 use imdp::progress::Progress;
 use imdp::solver::worst_expectations;
 use levels::{Levels, distances_in_cells};
@@ -85,20 +86,20 @@ pub(super) struct PacRows<'a> {
 }
 
 impl<'a> PacRows<'a> {
-    /// Spends `β` and counts; the `discard` farthest samples are left out of all windows.
+    /// Spends `beta` and counts; the `discard` farthest samples are left out of all windows.
     pub(super) fn new(
         problem: &'a Problem,
-        (beta, discard): (&Rational, usize),
+        (beta, discard): (Rational, usize),
         targets: &'a Targets,
         placements: Placements<'a>,
         states: &'a StateSpace,
         outcomes: &'a Outcomes,
     ) -> Result<Self, AbstractionError> {
-        let (grid, samples) = (&problem.grid, &problem.noise.samples);
+        let (grid, samples) = (problem.grid(), &problem.noise().samples);
         let number = samples.len() as u64;
-        let goal_distances = distances_in_cells(targets, &problem.goal, grid);
+        let goal_distances = distances_in_cells(targets, problem.goal(), grid);
         let origins = if placements.shared().is_some() { 1 } else { targets.len() };
-        let mut budget = ConfidenceBudget::new(beta.clone());
+        let mut budget = ConfidenceBudget::new(beta);
         let levels = Levels::new(&mut budget, &placements.offset_ranges(grid), origins, &goal_distances)?;
 
         let shape = Shape::learn(samples, grid);
@@ -172,10 +173,12 @@ impl<'a> PacRows<'a> {
         })
     }
 
-    /// What the rows promise.
-    pub(super) fn guarantee(&self) -> Guarantee {
-        Guarantee {
-            beta: self.budget.total(),
+    /// What the rows rest on, as one of `sweep` settings that `β` is shared by.
+    pub(super) fn evidence(&self, beta: &Rational, sweep: u64) -> SampleEvidence {
+        SampleEvidence {
+            number: self.problem.noise().samples.len() as u64,
+            beta: to_f64(beta),
+            sweep,
             budget: self.budget.allocations().to_vec(),
             unseen_mass: self.unseen.first().copied().unwrap_or(1.0),
         }
@@ -205,7 +208,7 @@ impl<'a> PacRows<'a> {
     }
 
     fn push_row(&self, ground: &Ground<'_>, target: usize, window: usize, rows: &mut Rows) {
-        let grid = &self.problem.grid;
+        let grid = self.problem.grid();
         let Ground { landing, windows, origin, intervals } = ground;
         let (table, cells) = (landing.table(), &windows[window]);
         let (mut meets_goal, mut goal_lower) = (false, 0.0);
@@ -230,7 +233,7 @@ impl<'a> PacRows<'a> {
 
     /// Whether nothing in the window at `origin` is lost.
     fn is_clean(&self, window: &Spread, origin: &[i32]) -> bool {
-        let grid = &self.problem.grid;
+        let grid = self.problem.grid();
         let mut clean = is_inside(window, origin, grid);
         if clean {
             for_each_cell(window, window, origin, grid, |cell, _| {

@@ -1,10 +1,9 @@
 //! The controller as one self-contained C99 file.
 
-use super::promise::Promise;
 use super::template::render;
 use crate::controller::Controller;
-use crate::model_file::Problem;
 use crate::partition::{CellId, CellKind};
+use crate::problem::Problem;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
@@ -41,7 +40,7 @@ pub fn c_source(controller: &Controller, problem: &Problem, file: &str) -> Resul
     let steps = controller.horizon().unwrap_or(0);
     let horizon = u32::try_from(steps).map_err(|_| CSourceError::HorizonTooLong { steps })?;
     let n = controller.state_dimension();
-    let prefix = identifier(&problem.name);
+    let prefix = identifier(problem.name());
     let policy = Tables::new(controller);
     let faces = controller.lookup.faces();
     let first_face = faces.iter().scan(0, |sum, faces| {
@@ -54,9 +53,9 @@ pub fn c_source(controller: &Controller, problem: &Problem, file: &str) -> Resul
         CellKind::Unsafe => 2,
     };
     let values = [
-        ("name", comment(&problem.name)),
+        ("name", comment(problem.name())),
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
-        ("promise", promise(&Promise::new(problem, controller))),
+        ("promise", promise(&controller.promise())),
         ("file", comment(file)),
         ("function", format!("{prefix}_control")),
         ("PREFIX", prefix.to_uppercase()),
@@ -159,10 +158,11 @@ fn comment(text: &str) -> String {
     text.chars().map(|c| if plain(c) { c } else { '_' }).collect()
 }
 
-fn promise(promise: &Promise) -> String {
+/// Sentences as lines of a comment.
+fn promise(sentences: &[String]) -> String {
     let mut lines = vec![];
     let mut line = String::from(" *");
-    for word in promise.sentences().iter().flat_map(|sentence| sentence.split(' ')) {
+    for word in sentences.iter().flat_map(|sentence| sentence.split(' ')) {
         if line.len() + word.len() + 1 > WIDTH {
             lines.push(std::mem::replace(&mut line, String::from(" *")));
         }

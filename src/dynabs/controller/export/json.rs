@@ -1,9 +1,8 @@
 //! The controller as self-describing JSON.
 
-use super::promise::Promise;
 use crate::controller::Controller;
-use crate::model_file::Problem;
 use crate::partition::{CellId, CellKind};
+use crate::problem::Problem;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -13,20 +12,23 @@ use std::io::{self, Write};
 /// # Errors
 /// What writing gives.
 pub fn write_json(controller: &Controller, problem: &Problem, mut out: impl Write) -> io::Result<()> {
-    let promise = Promise::new(problem, controller);
     let n = controller.state_dimension();
-    let system = &problem.step_system;
+    let system = problem.step_system();
     let law = &controller.law;
     let of_kind = |kind| -> Vec<u32> {
-        problem.labels.iter().filter(|(_, k)| *k == kind).map(|(cell, _)| cell.0).collect()
+        problem.labels().iter().filter(|(_, k)| *k == kind).map(|(cell, _)| cell.0).collect()
     };
     let value = json!({
         "format": "dynabs controller",
         "format_version": 1,
         "version": env!("CARGO_PKG_VERSION"),
-        "name": problem.name,
+        "name": problem.name(),
         "units": "states, inputs and times are in the units of the model file; one step is one step of its dynamics",
-        "promise": {"text": promise.sentences().join(" "), "numbers": promise},
+        "promise": {
+            "text": controller.promise().join(" "),
+            "numbers": controller.promised(),
+            "guarantee": controller.guarantee(),
+        },
         "system": {
             "about": "x+ = A x + B u + q + noise, one step",
             "A": matrix(&system.a().to_f64()),
@@ -34,10 +36,10 @@ pub fn write_json(controller: &Controller, problem: &Problem, mut out: impl Writ
             "q": matrix(&system.q().to_f64().transpose())[0],
             "input": {
                 "about": "U = {u : G u <= g}, one step",
-                "G": matrix(&problem.step_input.normals().to_f64()),
-                "g": problem.step_input.offsets().iter().map(imdp::numeric::to_f64).collect::<Vec<_>>(),
+                "G": matrix(&problem.step_input().normals().to_f64()),
+                "g": problem.step_input().offsets().iter().map(imdp::numeric::to_f64).collect::<Vec<_>>(),
             },
-            "stabilizer": problem.stabilizer.as_ref().map(|stabilizer| json!({
+            "stabilizer": problem.stabilizer().map(|stabilizer| json!({
                 "about": "u = -K (x - about) + u', on the grouped system; contained in the law below",
                 "K": matrix(&stabilizer.layers.gain().to_f64()),
                 "at": matrix(&stabilizer.layers.about().to_f64().transpose())[0],

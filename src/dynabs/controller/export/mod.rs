@@ -3,12 +3,9 @@
 mod c_source;
 mod csv;
 mod json;
-mod promise;
 mod template;
 
 pub use c_source::{CSourceError, c_source};
 pub use csv::write_csv;
 pub use json::write_json;
 pub(crate) use template::render;
-
-pub use promise::{Promise, lower_bound_text};

@@ -1,7 +1,7 @@
 //! The noise of a simulated run.
 
-use crate::model_file::{NoiseSource, StepNoise};
 use crate::noise::{Gaussian, NoiseSamples};
+use crate::problem::{SampledNoise, StepNoise};
 use rand::{Rng, RngExt};
 
 /// Where the noise of the closed loop comes from.
@@ -17,7 +17,7 @@ pub enum Noise {
 
 impl Noise {
     /// The noise that a source describes, and as truly as it is known: step by step if it can be.
-    pub fn of(source: &NoiseSource) -> Self {
+    pub fn of(source: &SampledNoise) -> Self {
         match &source.of_one_step {
             StepNoise::Gaussian(gaussian) => Self::Gaussian(gaussian.clone()),
             StepNoise::Samples(samples) => Self::StepSamples(samples.clone()),

@@ -3,8 +3,8 @@
 use super::input_check::{InputCheck, Violation};
 use super::{Noise, Plant, Tally};
 use crate::controller::{Controller, Decision};
-use crate::model_file::Problem;
 use crate::partition::RegionLookup;
+use crate::problem::Problem;
 use imdp::progress::Progress;
 use rand::SeedableRng;
 use rand_chacha::ChaCha12Rng;
@@ -91,12 +91,12 @@ impl<'a> Simulation<'a> {
         let lookups = |regions: &[_]| regions.iter().map(RegionLookup::new).collect();
         Self {
             controller,
-            plant: Plant::new(&problem.step_system),
-            inputs: InputCheck::new(&problem.step_input),
-            goal: lookups(&problem.goal),
-            avoid: lookups(&problem.unsafe_),
+            plant: Plant::new(problem.step_system()),
+            inputs: InputCheck::new(problem.step_input()),
+            goal: lookups(problem.goal()),
+            avoid: lookups(problem.unsafe_regions()),
             noise,
-            most_steps: problem.horizon.unwrap_or(most_steps),
+            most_steps: problem.horizon().unwrap_or(most_steps),
         }
     }
 
@@ -239,7 +239,7 @@ mod tests {
     fn room() -> (Problem, Controller) {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/room_temperature.json");
         let document = Document::parse(&path, &std::fs::read_to_string(&path).unwrap()).unwrap();
-        let problem = Problem::from_document(&document).unwrap();
+        let problem = document.problem().unwrap();
         let abstraction: Abstraction = compile(&problem, &()).unwrap();
         let options = SolverOptions { policy: true, ..SolverOptions::default() };
         let answer = Answer::new(&abstraction.model, &abstraction.property, &options).unwrap();
@@ -250,7 +250,7 @@ mod tests {
     #[test]
     fn a_broken_law_is_noticed() {
         let (problem, mut controller) = room();
-        let noise = Noise::of(&problem.noise);
+        let noise = Noise::of(problem.noise());
         let tally = |controller: &Controller| {
             Simulation::new(&problem, controller, noise.clone(), 0).tally(&[2.0], 1, 1000, &())
         };

@@ -99,7 +99,8 @@ impl<T: Clone + Num> Elimination<T> {
         }
         for step in self.steps.iter().rev() {
             let own = right[step.state as usize].clone();
-            let sum = step.onward.iter().fold(own, |sum, (j, p)| sum + p.clone() * right[*j as usize].clone());
+            let sum =
+                step.onward.iter().fold(own, |sum, (j, p)| sum + p.clone() * right[*j as usize].clone());
             right[step.state as usize] = sum / step.rate.clone();
         }
         right

@@ -1,7 +1,7 @@
 //! Rows in fixed point, and their expectations with a known error.
 
-use super::super::expectation::Side;
-use super::super::query::Optimum;
+use super::super::expectation::Bound;
+use super::super::query::Direction;
 use super::fixed::{ONE, SumOfProducts, floor};
 use crate::model::{End, Row};
 
@@ -41,10 +41,10 @@ impl FixedRow {
     }
 
     /// A distribution, in units, that attains the optimum over values.
-    pub(super) fn respond(&self, values: &[u128], nature: Optimum) -> Vec<u128> {
+    pub(super) fn respond(&self, values: &[u128], nature: Direction) -> Vec<u128> {
         let mut order: Vec<usize> = (0..self.targets.len()).collect();
         order.sort_by_key(|&i| values[self.targets[i] as usize]);
-        if nature == Optimum::Max {
+        if nature == Direction::Max {
             order.reverse();
         }
         let mut masses = self.lower.clone();
@@ -65,28 +65,29 @@ impl FixedRow {
     }
 
     /// A bound on the optimum over the true row.
-    pub(super) fn bound(&self, values: &[u128], nature: Optimum, side: Side) -> u128 {
+    pub(super) fn bound(&self, values: &[u128], nature: Direction, side: Bound) -> u128 {
         let sum = self.expectation(&self.respond(values, nature), values);
         // More freedom than the true row has moves the optimum towards nature.
         let error = self.targets.len() as u128;
         match (side, nature) {
-            (Side::Lower, Optimum::Min) => sum.floor(),
-            (Side::Lower, Optimum::Max) => sum.floor().saturating_sub(error),
-            (Side::Upper, Optimum::Min) => (sum.ceil() + error).min(ONE),
-            (Side::Upper, Optimum::Max) => sum.ceil().min(ONE),
+            (Bound::Lower, Direction::Min) => sum.floor(),
+            (Bound::Lower, Direction::Max) => sum.floor().saturating_sub(error),
+            (Bound::Upper, Direction::Min) => (sum.ceil() + error).min(ONE),
+            (Bound::Upper, Direction::Max) => sum.ceil().min(ONE),
         }
     }
 
     /// Whether every distribution (`Min`) or some (`Max`) gives the targets in a set positive mass.
-    pub(super) fn hits(&self, nature: Optimum, inside: impl Fn(u32) -> bool) -> bool {
+    pub(super) fn hits(&self, nature: Direction, inside: impl Fn(u32) -> bool) -> bool {
         let entries = || self.targets.iter().zip(&self.lower).zip(&self.room);
         match nature {
-            Optimum::Min => {
+            Direction::Min => {
                 let positive = entries().any(|((t, l), _)| inside(*t) && *l > 0);
-                let outside: u128 = entries().filter(|((t, _), _)| !inside(**t)).map(|((_, l), r)| l + r).sum();
+                let outside: u128 =
+                    entries().filter(|((t, _), _)| !inside(**t)).map(|((_, l), r)| l + r).sum();
                 positive || outside < ONE
             }
-            Optimum::Max => {
+            Direction::Max => {
                 let possible = entries().any(|((t, l), r)| inside(*t) && l + r > 0);
                 let outside: u128 = entries().filter(|((t, _), _)| !inside(**t)).map(|((_, l), _)| l).sum();
                 possible && outside < ONE
@@ -122,11 +123,11 @@ mod tests {
             prop_assume!(doubles.iter().zip(&fixed).all(|(&x, &f)| super::super::fixed::to_f64_down(f) == x));
             let exact = ExactRow::new(row).unwrap();
             let fixed_row = FixedRow::new(row, successors.clone()).unwrap();
-            for (nature, optimum) in [(Nature::Min, Optimum::Min), (Nature::Max, Optimum::Max)] {
+            for (nature, optimum) in [(Nature::Min, Direction::Min), (Nature::Max, Direction::Max)] {
                 let value = exact.expectation(&successors, &ExactValues::with(&doubles, &Replaced::new()), nature);
                 let value = Rational::new(value.numer().clone(), value.denom().clone());
                 let (low, high) =
-                    (fixed_row.bound(&fixed, optimum, Side::Lower), fixed_row.bound(&fixed, optimum, Side::Upper));
+                    (fixed_row.bound(&fixed, optimum, Bound::Lower), fixed_row.bound(&fixed, optimum, Bound::Upper));
                 prop_assert!(to_rational(low) <= value && value <= to_rational(high));
                 prop_assert!(high - low <= 3 * u128::from(size) + 2);
             }

@@ -6,7 +6,7 @@
 //! round to round, and a strategy that leads out is only replaced where that is strictly better, so by one that leads
 //! out too.
 
-use super::super::query::Optimum;
+use super::super::query::Direction;
 use super::elimination::{Elimination, Process};
 use super::fixed::ONE;
 use super::fixed_row::FixedRow;
@@ -30,7 +30,7 @@ pub(super) struct Node {
     /// The rows to choose from.
     pub options: Vec<u32>,
     /// Who chooses.
-    pub optimum: Optimum,
+    pub optimum: Direction,
     /// By how many units its value must be on the safe side of what its row says.
     pub offset: u128,
 }
@@ -38,7 +38,7 @@ pub(super) struct Node {
 /// Nodes, and values outside.
 #[derive(Debug)]
 pub(super) struct Game {
-    pub nature: Optimum,
+    pub nature: Direction,
     pub nodes: Vec<Node>,
     pub rows: Vec<FixedRow>,
     /// The values of what is reached outside; a target `nodes + i` has `outside[i]`.
@@ -67,8 +67,8 @@ impl Game {
                 return None;
             }
             let values = self.evaluate(&strategy)?;
-            if !self.improve(&mut strategy, &values, Optimum::Min)
-                && !self.improve(&mut strategy, &values, Optimum::Max)
+            if !self.improve(&mut strategy, &values, Direction::Min)
+                && !self.improve(&mut strategy, &values, Direction::Max)
             {
                 return Some((strategy, values));
             }
@@ -83,7 +83,7 @@ impl Game {
         let mut needed: Vec<usize> = vec![1; nodes];
         for (i, node) in (0..).zip(&self.nodes) {
             node.options.iter().for_each(|&row| users[row as usize].push(i));
-            if node.optimum == Optimum::Min {
+            if node.optimum == Direction::Min {
                 needed[i as usize] = node.options.len();
             }
         }
@@ -94,7 +94,8 @@ impl Game {
         // Who is found earlier is closer to where there is something to be had: maximising sides go there, minimising
         // ones go the other way.
         let mut closeness: Vec<u128> = vec![0; nodes + self.outside.len()];
-        let mut choices: Vec<u32> = self.nodes.iter().map(|node| node.options.first().copied()).collect::<Option<_>>()?;
+        let mut choices: Vec<u32> =
+            self.nodes.iter().map(|node| node.options.first().copied()).collect::<Option<_>>()?;
         let mut done = vec![false; self.rows.len()];
         let mut next = ONE;
         let promising = (nodes..).zip(&self.outside).filter(|(_, value)| **value > 0);
@@ -116,7 +117,7 @@ impl Game {
                     if needed[i] == 0 {
                         next -= 1;
                         closeness[i] = next;
-                        choices[i] = if self.nodes[i].optimum == Optimum::Max { id } else { choices[i] };
+                        choices[i] = if self.nodes[i].optimum == Direction::Max { id } else { choices[i] };
                         work.push_back(node);
                     }
                 }
@@ -137,8 +138,9 @@ impl Game {
             values.extend(&self.outside);
             let before = lost.clone();
             for _ in 0..=REFINEMENTS {
-                let residual: Vec<i128> =
-                    (0..nodes).map(|i| if lost[i] { 0 } else { self.residual(i, strategy, &values) }).collect();
+                let residual: Vec<i128> = (0..nodes)
+                    .map(|i| if lost[i] { 0 } else { self.residual(i, strategy, &values) })
+                    .collect();
                 if residual.iter().all(|r| r.unsigned_abs() <= RESIDUAL) {
                     return Some(values);
                 }
@@ -189,17 +191,19 @@ impl Game {
                 same
             });
             let probability = |mass: u128| mass as f64 / ONE as f64;
-            process.rows.push(entries.into_iter().map(|(target, mass)| (target, probability(mass))).collect());
+            process
+                .rows
+                .push(entries.into_iter().map(|(target, mass)| (target, probability(mass))).collect());
             process.exits.push(probability(exit));
         }
         process
     }
 
     /// Changes the strategy of one direction wherever that is strictly better; returns whether it is anywhere.
-    fn improve(&self, strategy: &mut Strategy, values: &[u128], who: Optimum) -> bool {
+    fn improve(&self, strategy: &mut Strategy, values: &[u128], who: Direction) -> bool {
         let better = |a: u128, b: u128| match who {
-            Optimum::Min => a + TOLERANCE < b,
-            Optimum::Max => a > b + TOLERANCE,
+            Direction::Min => a + TOLERANCE < b,
+            Direction::Max => a > b + TOLERANCE,
         };
         let mut responded = vec![false; self.rows.len()];
         let mut weights = Vec::with_capacity(self.rows.len());

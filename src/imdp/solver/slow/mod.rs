@@ -21,10 +21,10 @@ mod tests;
 pub(super) use fixed::to_rational;
 
 use super::component::Component;
-use super::expectation::Side;
+use super::expectation::Bound;
 use super::guess::levels;
 use super::options::Control;
-use super::query::Optimum;
+use super::query::Direction;
 use crate::model::StateId;
 use part::Part;
 use std::collections::BTreeMap;
@@ -38,10 +38,10 @@ impl Component<'_, '_> {
     /// If only they could, upper ones are looked for by guessing with larger and larger margins.
     pub(super) fn solve_by_strategies(&mut self, share: f64, budget: u64, control: &Control<'_>) -> bool {
         let behind = self.gap_behind();
-        if !self.replace_bounds(Side::Lower, budget, control) {
+        if !self.replace_bounds(Bound::Lower, budget, control) {
             return false;
         }
-        if self.replace_bounds(Side::Upper, budget, control) {
+        if self.replace_bounds(Bound::Upper, budget, control) {
             return true;
         }
         let mut margin = share;
@@ -52,35 +52,37 @@ impl Component<'_, '_> {
     }
 
     /// Replaces the bounds of one side, if they can be computed and verified.
-    fn replace_bounds(&mut self, side: Side, budget: u64, control: &Control<'_>) -> bool {
+    fn replace_bounds(&mut self, side: Bound, budget: u64, control: &Control<'_>) -> bool {
         let levels = match side {
-            Side::Lower => Default::default(),
-            Side::Upper => {
+            Bound::Lower => Default::default(),
+            Bound::Upper => {
                 let shared = &mut *self.shared;
-                self.sweep.evaluate_rows(&shared.lower, Side::Lower, &mut shared.lower_rows);
+                self.sweep.evaluate_rows(&shared.lower, Bound::Lower, &mut shared.lower_rows);
                 levels(self)
             }
         };
         let Some(part) = Part::new(self, side, &levels, budget) else { return false };
-        let Some((strategy, mut values)) = part.game.solve(&|| control.stop().is_some()) else { return false };
+        let Some((strategy, mut values)) = part.game.solve(&|| control.stop().is_some()) else {
+            return false;
+        };
         values.iter_mut().for_each(|value| *value = (*value).min(fixed::ONE));
         if !part.holds(&strategy, &values, &levels) {
             return false;
         }
         let shared = &mut *self.shared;
         let (doubles, precise) = match side {
-            Side::Lower => (&mut shared.lower, &mut shared.precise_lower),
-            Side::Upper => (&mut shared.upper, &mut shared.precise_upper),
+            Bound::Lower => (&mut shared.lower, &mut shared.precise_lower),
+            Bound::Upper => (&mut shared.upper, &mut shared.precise_upper),
         };
         for (i, &s) in self.sweep.states.iter().enumerate() {
             let value = values[part.node(i)];
             let (below, above) = (fixed::to_f64_down(value), fixed::to_f64_up(value));
-            doubles[s as usize] = if side == Side::Lower { below } else { above };
+            doubles[s as usize] = if side == Bound::Lower { below } else { above };
             if below < above {
                 precise.insert(s, value);
             }
         }
-        let attained = if side == Side::Lower { Optimum::Max } else { Optimum::Min };
+        let attained = if side == Bound::Lower { Direction::Max } else { Direction::Min };
         if shared.wants_policy && shared.players.policy == attained {
             for (i, &s) in self.sweep.states.iter().enumerate() {
                 shared.choices[s as usize] = part.choice(i, &strategy);

@@ -1,10 +1,10 @@
 //! From a cyclic part of the model to a game in fixed point, and back to what a bound must satisfy.
 
 use super::super::component::Component;
-use super::super::expectation::Side;
-use super::super::guess::{Levels, greedy_row};
+use super::super::expectation::Bound;
+use super::super::guess::{LevelSets, greedy_row};
 use super::super::policy::{NO_CHOICE, first_choice};
-use super::super::query::Optimum;
+use super::super::query::Direction;
 use super::fixed::{ceil_f64, floor_f64};
 use super::fixed_row::FixedRow;
 use super::game::{Game, Node, Strategy};
@@ -17,7 +17,7 @@ const MOST_CHOICES: usize = 1 << 23;
 /// A part of the model as a game for one of the bounds.
 pub(super) struct Part<'a> {
     pub game: Game,
-    side: Side,
+    side: Bound,
     choices: &'a Choices,
     states: Vec<StateId>,
     /// The node of every state: its own, or that of its end component.
@@ -31,7 +31,7 @@ pub(super) struct Part<'a> {
 /// Collects rows and what they lead to.
 struct Collector<'c, 's, 'a> {
     component: &'c Component<'s, 'a>,
-    side: Side,
+    side: Bound,
     nodes: HashMap<StateId, u32>,
     count: u32,
     outside: Vec<u128>,
@@ -43,7 +43,12 @@ struct Collector<'c, 's, 'a> {
 
 impl<'a> Part<'a> {
     /// `None` if it is too large, or a row admits no distribution exactly.
-    pub(super) fn new(component: &Component<'_, 'a>, side: Side, levels: &Levels, budget: u64) -> Option<Self> {
+    pub(super) fn new(
+        component: &Component<'_, 'a>,
+        side: Bound,
+        levels: &LevelSets,
+        budget: u64,
+    ) -> Option<Self> {
         let shared = &*component.shared;
         let (states, players, choices) = (&component.sweep.states, shared.players, shared.model.choices());
         let total: usize = states.iter().flat_map(|&s| choices.ranges(s)).map(|range| range.len()).sum();
@@ -75,9 +80,9 @@ impl<'a> Part<'a> {
         for (&s, &node) in states.iter().zip(&nodes) {
             let in_class = (node as usize) < levels.classes.len();
             let node = &mut list[node as usize];
-            if in_class && players.policy == Optimum::Min {
+            if in_class && players.policy == Direction::Min {
                 // Each of its states does what is best; the highest of them decides.
-                node.optimum = Optimum::Max;
+                node.optimum = Direction::Max;
                 let row = greedy_row(shared, s)?;
                 fixed.insert(s, row);
                 node.options.push(collector.row(row)?);
@@ -94,7 +99,7 @@ impl<'a> Part<'a> {
             let longest = node.options.iter().map(|&row| rows[row as usize].targets.len()).max()?;
             node.offset = 4 * longest as u128 + 64;
         }
-        let raised = side == Side::Upper;
+        let raised = side == Bound::Upper;
         let game = Game { nature: players.nature, nodes: list, rows, outside, raised, budget };
         Some(Self { game, side, choices, states: states.clone(), nodes, rows: ids, fixed })
     }
@@ -113,11 +118,11 @@ impl<'a> Part<'a> {
     }
 
     /// Whether values are certainly bounds: `L ≤ T_σ(L)`, or `T(U) ≤ U`.
-    pub(super) fn holds(&self, strategy: &Strategy, values: &[u128], levels: &Levels) -> bool {
+    pub(super) fn holds(&self, strategy: &Strategy, values: &[u128], levels: &LevelSets) -> bool {
         let game = &self.game;
         let mut weights: Vec<u128> =
             game.rows.iter().map(|row| row.bound(values, game.nature, self.side)).collect();
-        if self.side == Side::Upper {
+        if self.side == Bound::Upper {
             let position: HashMap<RowId, usize> = self.rows.iter().zip(0..).map(|(&id, i)| (id, i)).collect();
             for (row, class) in &levels.capped {
                 if let Some(&i) = position.get(row) {
@@ -126,11 +131,11 @@ impl<'a> Part<'a> {
             }
         }
         // The side that a bound is proved for has made its choice; the other one can do anything.
-        let proved_for = if self.side == Side::Lower { Optimum::Max } else { Optimum::Min };
+        let proved_for = if self.side == Bound::Lower { Direction::Max } else { Direction::Min };
         game.nodes.iter().zip(&strategy.choices).zip(values).all(|((node, choice), &value)| {
             let holds = |row: &u32| match self.side {
-                Side::Lower => value <= weights[*row as usize],
-                Side::Upper => value >= weights[*row as usize],
+                Bound::Lower => value <= weights[*row as usize],
+                Bound::Upper => value >= weights[*row as usize],
             };
             if node.optimum == proved_for { holds(choice) } else { node.options.iter().all(holds) }
         })
@@ -149,7 +154,7 @@ impl Collector<'_, '_, '_> {
             let targets = row.successors.iter().map(|&s| self.target(s)).collect();
             FixedRow::new(row, targets)?
         } else {
-            let table = if self.side == Side::Lower { &shared.lower_rows } else { &shared.upper_rows };
+            let table = if self.side == Bound::Lower { &shared.lower_rows } else { &shared.upper_rows };
             let value = self.fixed(table.values()[id as usize]);
             self.outside.push(value);
             FixedRow::certain(self.count + self.outside.len() as u32 - 1)
@@ -167,8 +172,8 @@ impl Collector<'_, '_, '_> {
         }
         let shared = &*self.component.shared;
         let value = match self.side {
-            Side::Lower => shared.lower[state as usize],
-            Side::Upper => shared.upper[state as usize],
+            Bound::Lower => shared.lower[state as usize],
+            Bound::Upper => shared.upper[state as usize],
         };
         let value = self.fixed(value);
         *self.outside_of.entry(state).or_insert_with(|| {
@@ -179,8 +184,8 @@ impl Collector<'_, '_, '_> {
 
     fn fixed(&self, value: f64) -> u128 {
         match self.side {
-            Side::Lower => floor_f64(value),
-            Side::Upper => ceil_f64(value),
+            Bound::Lower => floor_f64(value),
+            Bound::Upper => ceil_f64(value),
         }
     }
 }

@@ -3,9 +3,10 @@
 use super::super::query::Players;
 use super::super::unbounded::until_with_patience;
 use super::super::{Solution, SolverOptions};
-use crate::certificate::{Certificate, ModelFile};
+use crate::certificate::{Certificate, FileDigest};
 use crate::model::{
-    ActionNames, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowRange, Rows, StateSet, StateVariables,
+    ActionNames, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowRange, Rows, StateSet,
+    StateVariables,
 };
 use crate::property::{Property, Resolution};
 use crate::verify::check;
@@ -49,12 +50,13 @@ fn model(states: &[Vec<Weights>], exit: f64) -> IntervalMdp {
     labels.insert("goal".to_owned(), set(&[STATES]));
     let kind = ModelKind::Imdp;
     let (choices, initial, variables) = (choices.finish(), set(&[0]), StateVariables::default());
-    IntervalMdp::new(Parts { kind, rows, choices, actions: ActionNames::None, initial, labels, variables }).unwrap()
+    IntervalMdp::new(Parts { kind, rows, choices, actions: ActionNames::None, initial, labels, variables })
+        .unwrap()
 }
 
 fn assert_accepted(model: &IntervalMdp, resolution: Resolution, solution: &mut Solution) {
     let property: Property = format!("{resolution}=? [ F \"goal\" ]").parse().unwrap();
-    let files = vec![ModelFile { kind: "dynabs".to_owned(), sha256: String::new() }];
+    let files = vec![FileDigest { kind: "dynabs".to_owned(), sha256: String::new() }];
     let (lower, upper) = (solution.values.lower[0], solution.values.upper[0]);
     let evidence = solution.evidence.take().unwrap();
     let states = model.num_states() as u64;

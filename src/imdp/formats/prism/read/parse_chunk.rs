@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 
 use crate::formats::import::{
-    Cursor, Fault, Interval, Judgement, PendingRow, RowFault, describe, hash_row, read_interval, written_bounds,
+    Cursor, Fault, Interval, Judgement, PendingRow, RowFault, describe, hash_row, read_interval,
+    written_bounds,
 };
 use crate::model::{ActionNames, ModelKind, Row, Rows, StateId};
 

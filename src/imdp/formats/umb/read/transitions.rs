@@ -6,8 +6,8 @@ use super::archive::Archive;
 use super::array::{Array, Offsets};
 use super::index::Index;
 use crate::formats::import::{
-    Assembly, AssemblyError, Expected, ImportError, Interval, Judgement, PendingRow, Position, RowFault, Transitions,
-    Warning, hash_row,
+    Assembly, AssemblyError, Expected, ImportError, Interval, Judgement, PendingRow, Position, RowFault,
+    Transitions, Warning, hash_row,
 };
 use crate::model::{Rows, StateId, StateSet};
 use crate::numeric::shortest_decimal;

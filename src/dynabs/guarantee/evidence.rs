@@ -1,0 +1,32 @@
+//! What the probabilities of a model rest on.
+
+use crate::statistics::Allocation;
+use serde::{Deserialize, Serialize};
+
+/// What the intervals of a model are made from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "from", rename_all = "kebab-case")]
+pub enum Evidence {
+    /// Samples of the noise, whose distribution is unknown.
+    Samples(SampleEvidence),
+    /// The published tool's formulas, which prove nothing.
+    Published {
+        /// The failure probability of one interval by itself.
+        beta_per_interval: f64,
+    },
+}
+
+/// Samples, and what was made of the probability that they mislead.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SampleEvidence {
+    /// The number of samples, of the noise of one step of the model.
+    pub number: u64,
+    /// The probability that something that is promised of any setting of the sweep is wrong, at most: `β`.
+    pub beta: f64,
+    /// The number of settings that are compiled with these samples: each may spend `β / sweep`.
+    pub sweep: u64,
+    /// What this setting spent its part on.
+    pub budget: Vec<Allocation>,
+    /// The bound on the probability outside the window of cells that a row lists.
+    pub unseen_mass: f64,
+}

@@ -1,0 +1,117 @@
+//! A guarantee in words: sentences and lists of plain ASCII.
+
+use super::{Bound, Evidence, Guarantee, Safety, lower_bound_text};
+use imdp::numeric::shortest_decimal;
+
+/// What the samples must not have a say in.
+const FIXED_BEFOREHAND: &[&str] = &[
+    "the grid",
+    "the targets",
+    "the goal",
+    "the unsafe region",
+    "the inputs U",
+    "the gain K, the point it stabilises about, and U'",
+    "group_steps",
+    "discard",
+    "the confidence, its split over the families of events and the weights in them",
+    "sweep, the number of settings that are compiled with these samples",
+];
+
+/// What the promise presupposes of noise and samples.
+const ASSUMES: &[&str] = &[
+    "the samples are independent of each other and all have the distribution of the noise at run time",
+    "the noise at run time is independent of the samples and has this distribution at every step, whatever happened before",
+    "a seed that samples are drawn with was not chosen by its result",
+];
+
+impl Guarantee {
+    /// The claim for a bound, as sentences.
+    pub fn sentences(&self, bound: &Bound) -> Vec<String> {
+        let start = match &bound.initial_state {
+            Some(x) => {
+                let numbers: Vec<_> = x.iter().map(|&x| shortest_decimal(x)).collect();
+                format!("From the cell of x = ({})", numbers.join(", "))
+            }
+            None => "From any cell that is not unsafe".to_owned(),
+        };
+        let within = self.event.horizon.map_or(String::new(), |steps| format!(" within {steps} steps"));
+        let bound = lower_bound_text(bound.bound);
+        let mut sentences = vec![match &self.evidence {
+            Evidence::Samples(samples) => format!(
+                "{start} the goal is reached{within}, avoiding the unsafe region and the outside of the \
+                 partition, with probability at least {bound}. This holds with confidence {}{} over the {} noise \
+                 samples, for noise that is independent of them and distributed like them.",
+                self.confidence().map(shortest_decimal).unwrap_or_default(),
+                match samples.sweep {
+                    1 => String::new(),
+                    settings => format!(", for all {settings} settings of the sweep together,"),
+                },
+                samples.number
+            ),
+            Evidence::Published { .. } => format!(
+                "{start} the value is {bound}{within}. It was computed in reference mode, to compare with the \
+                 published tool: nothing is guaranteed."
+            ),
+        }];
+        let d = self.event.group_steps;
+        if d > 1 {
+            sentences.push(match self.event.safety {
+                Safety::EveryStep => format!(
+                    "The unsafe region is avoided at every step, the outside of the partition every {d} steps."
+                ),
+                Safety::GroupedInstants => format!(
+                    "Safety is checked every {d} steps only: the unsafe region may be crossed in between."
+                ),
+            });
+        }
+        if !self.fixed_beforehand().is_empty() {
+            sentences.push(format!(
+                "Nothing of this may have been chosen by looking at the samples: {}.",
+                self.fixed_beforehand().join(", ")
+            ));
+        }
+        sentences
+    }
+
+    /// What a reader may expect and is not promised, in a few words.
+    pub fn caveat(&self) -> Option<String> {
+        match (&self.evidence, self.event.safety) {
+            (Evidence::Published { .. }, _) => None,
+            (_, Safety::EveryStep) => None,
+            (_, Safety::GroupedInstants) => Some(format!(
+                "NOT promised: safety in between, it is checked every {} steps only",
+                self.event.group_steps
+            )),
+        }
+    }
+
+    /// Which numbers about the model are claims about the system.
+    pub fn covers(&self) -> &'static str {
+        match self.evidence {
+            Evidence::Samples(_) => {
+                "lower bounds (Pmaxmin, Pminmin) of formulas that are false from \"failed\" on, and upper bounds (Pminmax, \
+                 Pmaxmax) of formulas that are true from \"failed\" on; in both cases only if \"reached\" decides the formula \
+                 by its meaning: a run ends there, and what the model does afterwards, or its variables there, mean nothing"
+            }
+            Evidence::Published { .. } => {
+                "nothing: these intervals repeat the published tool's and are no guarantee"
+            }
+        }
+    }
+
+    /// What must not have been chosen by looking at the samples.
+    pub fn fixed_beforehand(&self) -> &'static [&'static str] {
+        match self.evidence {
+            Evidence::Samples(_) => FIXED_BEFOREHAND,
+            Evidence::Published { .. } => &[],
+        }
+    }
+
+    /// What the guarantee presupposes of noise and samples.
+    pub fn assumes(&self) -> &'static [&'static str] {
+        match self.evidence {
+            Evidence::Samples(_) => ASSUMES,
+            Evidence::Published { .. } => &[],
+        }
+    }
+}

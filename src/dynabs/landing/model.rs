@@ -1,0 +1,168 @@
+//! The lattice game as an interval MDP, for everyone who reads such models.
+//!
+//! A cell's choice leads to the *range* state of its image, where nature picks a sub-cell; from there *landing* and *pair*
+//! states follow, one of each per coordinate with noise (see the module's page). All are shared. What noise is not
+//! listed goes to the state `lost`, which nature may count as won or lost, so that the model has both bounds:
+//! `Pmaxmin` and `Pmaxmax`.
+
+use super::images::Images;
+use super::layers::{Layers, Outcomes, push_any};
+use super::solve::{Aim, Question};
+use super::step::Landing;
+use imdp::model::{
+    ActionNames, ChoicesBuilder, ImdpError, IntervalMdp, Labels, ModelKind, Parts, RowId, RowRange, Rows,
+    StateId, StateSet, StateVariables,
+};
+
+/// An interval MDP whose cells come before everything else that there is for the encoding.
+#[derive(Clone, Debug)]
+pub struct LandingModel {
+    /// The model.
+    pub model: IntervalMdp,
+    /// By cell: its state; cells that lost or won share one.
+    pub of_cell: Vec<StateId>,
+    /// How many steps of the model are one of the system.
+    pub micro_steps: u64,
+}
+
+/// Everything that failed.
+const FAILED: StateId = 0;
+/// Where unlisted noise goes.
+const LOST: StateId = 1;
+/// All goal cells, if there is a goal.
+const REACHED: StateId = 2;
+
+impl Question<'_> {
+    /// The model, with `initial` cells.
+    ///
+    /// # Errors
+    /// [`ImdpError`] if the parts do not make a model: a mistake in this program.
+    pub fn model(&self, initial: &[u32]) -> Result<LandingModel, ImdpError> {
+        let heads: u32 = if self.aim == Aim::Reach { 3 } else { 2 };
+        let mut of_cell = vec![FAILED; self.goal.len()];
+        for (state, goal) in of_cell.iter_mut().zip(self.goal) {
+            *state = if *goal { REACHED } else { FAILED };
+        }
+        (heads..).zip(self.open).for_each(|(state, &cell)| of_cell[cell as usize] = state);
+        let cells_end = heads as usize + self.open.len();
+        let ranges = Ranges::new(self.images);
+        let outcomes = Outcomes { failed: FAILED, lost: LOST, of_cell: &of_cell };
+        let layers = Layers::new(self.landing, cells_end + ranges.places.len(), outcomes);
+        let states = layers.end();
+
+        let mut rows = Rows::new();
+        push_any(&mut rows, vec![FAILED, if self.aim == Aim::Reach { REACHED } else { LOST }]);
+        (0..ranges.places.len()).for_each(|range| push_any(&mut rows, vec![(cells_end + range) as StateId]));
+        ranges.places.iter().for_each(|&(class, at)| {
+            push_any(&mut rows, self.sub_cells(&layers, class, at));
+        });
+        layers.push_rows(&mut rows);
+
+        let mut choices = ChoicesBuilder::with_capacity(states);
+        let mut ids = vec![];
+        let one = |row: usize| RowRange { first: row as RowId, last: row as RowId };
+        for head in 0..heads {
+            if head == LOST {
+                choices.push_range(one(0));
+                choices.finish_state();
+            } else {
+                choices.push_absorbing();
+            }
+            ids.push(ActionNames::UNNAMED);
+        }
+        let inputs = self.images.inputs();
+        let mut pairs = ranges.of_pairs.iter().peekable();
+        for &cell in self.open {
+            while let Some(&&(pair, range)) = pairs.peek().filter(|(pair, _)| pair / inputs == cell) {
+                choices.push_range(one(1 + range as usize));
+                ids.push(pair % inputs);
+                pairs.next();
+            }
+            choices.finish_state();
+        }
+        for state in cells_end..states {
+            choices.push_range(one(1 + ranges.places.len() + state - cells_end));
+            choices.finish_state();
+            ids.push(ActionNames::UNNAMED);
+        }
+        let mut labels = Labels::default();
+        labels.insert("deadlock", set(states, None));
+        labels.insert("reached", set(states, (self.aim == Aim::Reach).then_some(REACHED)));
+        labels.insert("failed", set(states, Some(FAILED)));
+        let model = IntervalMdp::new(Parts {
+            kind: ModelKind::Imdp,
+            rows,
+            choices: choices.finish(),
+            actions: ActionNames::OfChoice {
+                names: (0..inputs).map(|input| format!("u_{input}")).collect(),
+                ids,
+            },
+            initial: set(states, initial.iter().map(|&cell| of_cell[cell as usize])),
+            labels,
+            variables: StateVariables::default(),
+        })?;
+        let noisy = self.landing.axes().iter().filter(|axis| axis.noise.is_some()).count() as u64;
+        Ok(LandingModel { model, of_cell, micro_steps: 2 + 2 * noisy })
+    }
+
+    /// The states of the sub-cells of a box.
+    fn sub_cells(&self, layers: &Layers<'_>, class: u32, at: u32) -> Vec<StateId> {
+        let size = &self.images.classes()[class as usize].size;
+        let lens: Vec<usize> = self.landing.axes().iter().map(|axis| axis.len).collect();
+        let mut first = vec![0; lens.len()];
+        let mut rest = at as usize;
+        for j in (0..lens.len()).rev() {
+            first[j] = rest % lens[j];
+            rest /= lens[j];
+        }
+        let count: usize = size.iter().map(|&s| s as usize).product();
+        let place = |mut index: usize| {
+            let mut place = first.clone();
+            for j in (0..lens.len()).rev() {
+                place[j] = (first[j] + index % size[j] as usize) % lens[j];
+                index /= size[j] as usize;
+            }
+            layers.of_sub_cell(&place)
+        };
+        (0..count).map(place).collect()
+    }
+}
+
+fn set(states: usize, members: impl IntoIterator<Item = StateId>) -> StateSet {
+    let mut set = StateSet::with_capacity(states);
+    set.extend(members.into_iter().map(|state| state as usize));
+    set
+}
+
+/// The distinct images.
+struct Ranges {
+    /// `(class, position)`, ascending.
+    places: Vec<(u32, u32)>,
+    /// `(cell · inputs + input, range)`, ascending.
+    of_pairs: Vec<(u32, u32)>,
+}
+
+impl Ranges {
+    fn new(images: &Images) -> Self {
+        let all = || {
+            (0..)
+                .zip(images.classes())
+                .flat_map(|(class, images)| images.at.iter().map(move |&at| (class, at)))
+        };
+        let mut places: Vec<(u32, u32)> = all().collect();
+        places.sort_unstable();
+        places.dedup();
+        let pairs = images.classes().iter().flat_map(|class| &class.of);
+        let range = |place| places.binary_search(&place).unwrap_or_default() as u32;
+        let mut of_pairs: Vec<_> = pairs.zip(all()).map(|(&pair, place)| (pair, range(place))).collect();
+        of_pairs.sort_unstable();
+        Self { places, of_pairs }
+    }
+}
+
+impl Landing {
+    /// The axes in the order of their stages.
+    pub(super) fn order(&self) -> impl Iterator<Item = usize> + '_ {
+        self.stages().iter().map(|(j, _)| *j)
+    }
+}

@@ -1,0 +1,127 @@
+//! One robust step for all cells: `V⁺(s) = max_a min { G(i) : i ∈ I(s,a) }`, or with maxima for the upper bound.
+
+use super::axis::Axis;
+use super::images::Images;
+use super::side::Side;
+use super::stage::Stage;
+use super::taps::Taps;
+use super::windows::{Extent, Windows};
+use imdp::solver::NO_CHOICE;
+use rayon::prelude::*;
+
+/// How many cells one task looks at.
+const BLOCK: usize = 1 << 13;
+
+/// The lattice on which images land, and the noise that takes them on.
+#[derive(Clone, Debug)]
+pub struct Landing {
+    axes: Vec<Axis>,
+    /// In the order in which they are applied, with the axis that each is about.
+    stages: Vec<(usize, Stage)>,
+    extents: Vec<Extent>,
+}
+
+/// The best input of every cell and what it is worth.
+#[derive(Clone, Debug)]
+pub struct Best {
+    /// By cell: 0 where nothing is enabled.
+    pub values: Vec<f64>,
+    /// By cell: the first of the best inputs, or [`NO_CHOICE`].
+    pub inputs: Vec<u32>,
+}
+
+impl Landing {
+    /// A lattice with these axes, row-major.
+    pub fn new(axes: Vec<Axis>) -> Self {
+        let mut stages: Vec<_> = axes.iter().map(Stage::new).enumerate().collect();
+        // Those that make the array longer last: the others then have less to do.
+        stages.sort_by(|(_, a), (_, b)| a.growth().total_cmp(&b.growth()));
+        let mut stride = axes.iter().map(|axis| axis.len).product::<usize>();
+        let extent = |axis: &Axis| {
+            stride /= axis.len;
+            Extent { len: axis.len, stride, periodic: axis.periodic }
+        };
+        Self { extents: axes.iter().map(extent).collect(), stages, axes }
+    }
+
+    /// The axes.
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    pub(super) fn stages(&self) -> &[(usize, Stage)] {
+        &self.stages
+    }
+
+    /// The number of cells of the partition.
+    pub fn num_cells(&self) -> usize {
+        self.axes.iter().map(|axis| axis.cells).product()
+    }
+
+    /// This lattice with other noise, and the product of its least masses; `None` if some noise is unknown or that
+    /// product is too small to be told from rounding.
+    pub(super) fn with_noise(
+        &self,
+        noise: impl Iterator<Item = Option<Option<Taps>>>,
+    ) -> Option<(Self, f64)> {
+        let mut axes = self.axes.clone();
+        let mut least = 1.0;
+        for (axis, noise) in axes.iter_mut().zip(noise) {
+            axis.noise = match noise {
+                None => None,
+                Some(taps) => Some(taps?),
+            };
+            let masses = axis.noise.iter().flat_map(|taps| &taps.lower).filter(|&&p| p > 0.0);
+            least *= masses.fold(1.0, |a: f64, &b| a.min(b));
+        }
+        (least > 1e-9).then(|| (Self::new(axes), least))
+    }
+
+    /// The landing value `G` of every sub-cell that is looked at, for the values of all cells.
+    pub fn values<S: Side>(&self, of_cells: &[f64]) -> Vec<f64> {
+        let mut values: Vec<f64> = of_cells.iter().map(|&v| S::above_underflow(v)).collect();
+        let mut shape: Vec<usize> = self.axes.iter().map(|axis| axis.cells).collect();
+        for (j, stage) in &self.stages {
+            let inner = shape[j + 1..].iter().product();
+            values = stage.apply::<S>(&values, inner);
+            values.iter_mut().for_each(|v| *v = S::above_underflow(*v));
+            shape[*j] = stage.axis().len;
+        }
+        values
+    }
+
+    /// The best input of every cell for the values of all cells.
+    pub fn best<S: Side>(&self, images: &Images, of_cells: &[f64]) -> Best {
+        let landed = self.values::<S>(of_cells);
+        let mut windows = Windows::new(&self.extents, &landed);
+        let mut best = Best { values: vec![0.0; of_cells.len()], inputs: vec![NO_CHOICE; of_cells.len()] };
+        let inputs = images.inputs();
+        for class in images.classes() {
+            let worth = windows.of::<S>(&class.size);
+            let blocks = best.values.par_chunks_mut(BLOCK).zip(best.inputs.par_chunks_mut(BLOCK));
+            blocks.enumerate().for_each(|(block, (values, choices))| {
+                let first = (block * BLOCK) as u32;
+                let from = class.of.partition_point(|&pair| pair / inputs < first);
+                let pairs = class.of[from..].iter().zip(&class.at[from..]);
+                for (&pair, &at) in pairs {
+                    let (cell, input) = ((pair / inputs - first) as usize, pair % inputs);
+                    if cell >= values.len() {
+                        break;
+                    }
+                    let value = worth[at as usize];
+                    if value > values[cell] || (value == values[cell] && input < choices[cell]) {
+                        values[cell] = value;
+                        choices[cell] = input;
+                    }
+                }
+            });
+        }
+        best
+    }
+
+    /// Bytes that a step needs at most, beside the values: the arrays of stages and windows.
+    pub fn bytes(&self) -> u64 {
+        let lattice: u64 = self.extents.iter().map(|extent| extent.len as u64).product();
+        8 * lattice * (3 + self.extents.len() as u64)
+    }
+}

@@ -1,0 +1,177 @@
+//! From the fields of a model file to the parts of a problem.
+
+use super::Document;
+use super::fields::{
+    DynamicsSpec, GaussianSpec, GridSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec, RegionSpec,
+    SampleKindSpec, SamplesSpec, SetSpec, StabilizerSpec, TargetsSpec, TaskSpec,
+};
+use crate::Diagnostic;
+use crate::problem::{
+    DrawnNoise, Gain, GaussianNoise, InputSet, LinearDynamics, LowerLayer, LqrWeights, NoiseSource,
+    Partition, Probabilities, Problem, ProblemBuilder, RegionBox, SampleKind, SamplesFile, TargetChoice,
+    Task,
+};
+use std::path::Path;
+
+impl Document {
+    /// The problem that the model file states: field names, types and values are checked, samples read.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] for the first mistake found.
+    pub fn problem(&self) -> Result<Problem, Diagnostic> {
+        let builder = self.model().and_then(|file| builder(file, &self.directory));
+        builder.and_then(ProblemBuilder::build).map_err(|error| error.in_file(&self.name))
+    }
+}
+
+fn builder(file: ModelFile, directory: &Path) -> Result<ProblemBuilder, Diagnostic> {
+    let DynamicsSpec { a, b, q, group_steps } = file.dynamics;
+    let mut builder = Problem::builder(LinearDynamics { a, b, q }, input_set("/input", file.input)?)
+        .name(file.name)
+        .group_steps(group_steps)
+        .partition(partition(file.partition))
+        .targets(targets(file.targets))
+        .task(task(file.task))
+        .probabilities(probabilities(&file.probabilities)?)
+        .noise(noise(file.noise, directory)?);
+    if let Some(state) = file.initial_state {
+        builder = builder.initial_state(state);
+    }
+    if let Some(stabilizer) = file.stabilizer {
+        builder = builder.lower_layer(lower_layer(stabilizer)?);
+    }
+    Ok(builder)
+}
+
+fn input_set(place: &str, spec: SetSpec) -> Result<InputSet, Diagnostic> {
+    match spec {
+        SetSpec { lower: Some(lower), upper: Some(upper), normals: None, offsets: None } => {
+            Ok(InputSet::Box { lower, upper })
+        }
+        SetSpec { lower: None, upper: None, normals: Some(normals), offsets: Some(offsets) } => {
+            Ok(InputSet::Polytope { normals, offsets })
+        }
+        _ => {
+            let given = given(&[
+                ("lower", spec.lower.is_some()),
+                ("upper", spec.upper.is_some()),
+                ("G", spec.normals.is_some()),
+                ("g", spec.offsets.is_some()),
+            ]);
+            let found = if given.is_empty() { "neither".to_owned() } else { format!("only {given}") };
+            Err(Diagnostic::at(place, found, "a box {lower, upper} or a polytope {G, g}"))
+        }
+    }
+}
+
+/// The names of the fields that are there.
+fn given(fields: &[(&str, bool)]) -> String {
+    let given: Vec<_> = fields.iter().filter(|(_, given)| *given).map(|(name, _)| *name).collect();
+    given.join(", ")
+}
+
+fn lower_layer(spec: StabilizerSpec) -> Result<LowerLayer, Diagnostic> {
+    let gain = match (spec.lqr, spec.gain) {
+        (Some(lqr), None) => Gain::Lqr(LqrWeights { q: lqr.q, r: lqr.r, decimals: lqr.decimals }),
+        (None, Some(gain)) => Gain::Given(gain),
+        (lqr, _) => {
+            let found = if lqr.is_some() { "both lqr and gain" } else { "neither lqr nor gain" };
+            return Err(Diagnostic::at("/stabilizer", found, "exactly one of lqr and gain"));
+        }
+    };
+    let abstract_input = input_set("/stabilizer/abstract_input", spec.abstract_input)?;
+    Ok(LowerLayer { gain, about: spec.about, abstract_input })
+}
+
+fn partition(spec: GridSpec) -> Partition {
+    Partition { lower: spec.lower, upper: spec.upper, cells: spec.cells }
+}
+
+fn targets(spec: TargetsSpec) -> TargetChoice {
+    match spec {
+        TargetsSpec::Centers => TargetChoice::Centers,
+        TargetsSpec::Grid(grid) => TargetChoice::Grid(partition(grid)),
+        TargetsSpec::Points(points) => TargetChoice::Points(points),
+    }
+}
+
+fn task(spec: TaskSpec) -> Task {
+    Task {
+        horizon: spec.horizon,
+        threshold: spec.threshold,
+        ..Task::reach(boxes(spec.goal)).avoiding(boxes(spec.unsafe_))
+    }
+}
+
+fn boxes(specs: Vec<RegionSpec>) -> Vec<RegionBox> {
+    let side = |values: Vec<Option<f64>>, unbounded| {
+        values.into_iter().map(|x: Option<f64>| x.unwrap_or(unbounded)).collect()
+    };
+    let region = |spec: RegionSpec| RegionBox {
+        lower: side(spec.lower, f64::NEG_INFINITY),
+        upper: side(spec.upper, f64::INFINITY),
+    };
+    specs.into_iter().map(region).collect()
+}
+
+fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {
+    match spec {
+        NoiseSpec { samples: Some(SamplesSpec { file, of }), gaussian: None, count: None, seed: None } => {
+            let of = match of {
+                SampleKindSpec::Grouped => SampleKind::Grouped,
+                SampleKindSpec::Step => SampleKind::Step,
+            };
+            Ok(SamplesFile { path: directory.join(&file), name: file, of }.into())
+        }
+        NoiseSpec { samples: None, gaussian: Some(GaussianSpec { mean, covariance }), count, seed } => {
+            let count = count
+                .ok_or_else(|| Diagnostic::at("/noise/count", "nothing", "the number of samples to draw"))?;
+            let distribution = GaussianNoise { mean, covariance };
+            Ok(DrawnNoise { distribution, count, seed: seed.unwrap_or(0) }.into())
+        }
+        _ => {
+            let given = given(&[
+                ("samples", spec.samples.is_some()),
+                ("gaussian", spec.gaussian.is_some()),
+                ("count", spec.count.is_some()),
+                ("seed", spec.seed.is_some()),
+            ]);
+            let found = if given.is_empty() { "nothing".to_owned() } else { given };
+            Err(Diagnostic::at("/noise", found, "either {samples} or {gaussian, count, seed}"))
+        }
+    }
+}
+
+fn probabilities(spec: &ProbabilitiesSpec) -> Result<Probabilities, Diagnostic> {
+    let foreign = |field: &str, mode: &str| {
+        let (place, expected) =
+            (format!("/probabilities/{field}"), format!("only fields of mode \"{mode}\""));
+        Err(Diagnostic::at(place, "a field of the other mode", expected))
+    };
+    match (spec.mode, spec) {
+        (Mode::Pac, ProbabilitiesSpec { beta_per_interval: Some(_), .. }) => {
+            foreign("beta_per_interval", "pac")
+        }
+        (Mode::Pac, ProbabilitiesSpec { confidence: Some(_), beta: Some(_), .. }) => Err(Diagnostic::at(
+            "/probabilities",
+            "both confidence and beta",
+            "one of them: beta = 1 − confidence",
+        )),
+        (Mode::Pac, ProbabilitiesSpec { confidence, beta, sweep, discard, .. }) => {
+            let pac = match beta {
+                Some(beta) => Probabilities::with_beta(*beta),
+                None => Probabilities::with_confidence(confidence.unwrap_or(0.99)),
+            };
+            pac?.discarding(discard.unwrap_or(0)).among(sweep.unwrap_or(1))
+        }
+        (Mode::Reference, ProbabilitiesSpec { confidence: Some(_), .. }) => {
+            foreign("confidence", "reference")
+        }
+        (Mode::Reference, ProbabilitiesSpec { beta: Some(_), .. }) => foreign("beta", "reference"),
+        (Mode::Reference, ProbabilitiesSpec { discard: Some(_), .. }) => foreign("discard", "reference"),
+        (Mode::Reference, ProbabilitiesSpec { sweep: Some(_), .. }) => foreign("sweep", "reference"),
+        (Mode::Reference, ProbabilitiesSpec { beta_per_interval, .. }) => {
+            Probabilities::reference(beta_per_interval.unwrap_or(0.01))
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! From parts to a problem: the checks that need several parts at once.
+
+use super::problem::{InitialState, Problem};
+use super::values::vector;
+use super::{
+    Dynamics, GroupSteps, InputSet, LowerLayer, NoiseSource, Partition, Probabilities, TargetChoice, Task,
+    dynamics, lower_layer, regions, task,
+};
+use crate::Diagnostic;
+use crate::partition::Grid;
+use crate::system::group;
+use imdp::numeric::to_f64;
+
+/// The parts of a [`Problem`], not yet checked. Partition, task and noise must be given.
+#[derive(Clone, Debug)]
+#[must_use = "build() makes the problem"]
+pub struct ProblemBuilder {
+    name: String,
+    dynamics: Dynamics,
+    input: InputSet,
+    group_steps: GroupSteps,
+    lower_layer: Option<LowerLayer>,
+    partition: Option<Partition>,
+    targets: TargetChoice,
+    task: Option<Task>,
+    initial_state: Option<Vec<f64>>,
+    probabilities: Probabilities,
+    noise: Option<NoiseSource>,
+}
+
+impl ProblemBuilder {
+    pub(super) fn new(dynamics: Dynamics, input: InputSet) -> Self {
+        Self {
+            name: "problem".to_owned(),
+            dynamics,
+            input,
+            group_steps: GroupSteps::Auto,
+            lower_layer: None,
+            partition: None,
+            targets: TargetChoice::Centers,
+            task: None,
+            initial_state: None,
+            probabilities: Probabilities::default(),
+            noise: None,
+        }
+    }
+
+    /// A short name.
+    pub fn name(mut self, name: impl Into<String>) -> Self {
+        self.name = name.into();
+        self
+    }
+
+    /// How many steps become one; by default as few as make the grouped `B` of full row rank.
+    pub fn group_steps(mut self, steps: GroupSteps) -> Self {
+        self.group_steps = steps;
+        self
+    }
+
+    /// A lower layer of linear feedback; by default there is none.
+    pub fn lower_layer(mut self, layer: LowerLayer) -> Self {
+        self.lower_layer = Some(layer);
+        self
+    }
+
+    /// The grid of cells; everything outside counts as failed.
+    pub fn partition(mut self, partition: Partition) -> Self {
+        self.partition = Some(partition);
+        self
+    }
+
+    /// The points that actions steer to; by default the centers of all cells.
+    pub fn targets(mut self, targets: TargetChoice) -> Self {
+        self.targets = targets;
+        self
+    }
+
+    /// What the controller is to achieve.
+    pub fn task(mut self, task: Task) -> Self {
+        self.task = Some(task);
+        self
+    }
+
+    /// The state from which the guarantee is wanted; by default every ordinary cell is initial.
+    pub fn initial_state(mut self, state: Vec<f64>) -> Self {
+        self.initial_state = Some(state);
+        self
+    }
+
+    /// How intervals are computed; by default so that all hold together with probability 0.99.
+    pub fn probabilities(mut self, probabilities: Probabilities) -> Self {
+        self.probabilities = probabilities;
+        self
+    }
+
+    /// Where the noise samples come from.
+    pub fn noise(mut self, source: impl Into<NoiseSource>) -> Self {
+        self.noise = Some(source.into());
+        self
+    }
+
+    /// Checks all parts, reads or draws the samples.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] for the first mistake found. Its place is the field's in a model file.
+    pub fn build(self) -> Result<Problem, Diagnostic> {
+        let Dynamics::Linear(linear) = &self.dynamics;
+        let step_system = linear.system()?;
+        let n = step_system.state_dimension();
+        let step_input = self.input.polytope("/input", step_system.input_dimension())?;
+        let group_steps = dynamics::group_steps(self.group_steps, &step_system)?;
+        dynamics::require_short_numbers(&step_system, group_steps)?;
+        let system = group(&step_system, group_steps);
+        let input = step_input.power(group_steps);
+
+        let grid = given(self.partition, "partition")?.grid("/partition", n)?;
+        let actions = regions::actions("/targets", &self.targets, n)?;
+        let task = task::CheckedTask::new(&given(self.task, "task")?, &grid, group_steps)?;
+        let initial = self.initial_state.map(|state| initial(state, &grid)).transpose()?;
+        let stabilizer =
+            self.lower_layer.map(|layer| lower_layer::stabilizer(&layer, &system, &input, &grid));
+        let stabilizer = stabilizer.transpose()?;
+        let noise = given(self.noise, "noise")?.obtain(&step_system, group_steps)?;
+        let mut warnings = task.warnings;
+        warnings.extend(stabilizer.iter().flat_map(|s| s.warnings.iter().cloned()));
+        warnings.extend(noise.warnings.iter().cloned());
+        Ok(Problem {
+            name: self.name,
+            step_system,
+            step_input,
+            group_steps,
+            system,
+            input,
+            stabilizer,
+            grid,
+            labels: task.labels,
+            objective: task.objective,
+            unsafe_: task.unsafe_,
+            actions,
+            horizon: task.horizon,
+            threshold: task.threshold,
+            initial,
+            probabilities: self.probabilities,
+            noise,
+            warnings,
+        })
+    }
+}
+
+fn given<T>(part: Option<T>, name: &str) -> Result<T, Diagnostic> {
+    part.ok_or_else(|| Diagnostic::at("", format!("no field `{name}`"), format!("the field `{name}`")))
+}
+
+fn initial(state: Vec<f64>, grid: &Grid) -> Result<InitialState, Diagnostic> {
+    let place = "/initial_state";
+    let exact = vector(place, &state, grid.dimension(), "one per dimension of the state")?;
+    let outside = (0..state.len()).find(|&j| grid.axes()[j].locate(&exact[j]).is_none());
+    match (outside, grid.locate(&exact)) {
+        (None, Some(cell)) => Ok(InitialState { state, cell }),
+        (outside, _) => {
+            let j = outside.unwrap_or_default();
+            let axis = &grid.axes()[j];
+            let expected = format!(
+                "a state in the partition, [{}, {}) there",
+                to_f64(axis.lower()),
+                to_f64(axis.upper())
+            );
+            Err(Diagnostic::at(format!("{place}/{j}"), state[j].to_string(), expected)
+                .remedy("Move the state or enlarge the partition; cells do not contain their upper faces."))
+        }
+    }
+}

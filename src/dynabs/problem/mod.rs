@@ -1,0 +1,51 @@
+//! A control problem: its parts as plain numbers, a builder that checks that they fit, and what came of it.
+//!
+//! [`Problem::builder`] takes the parts from memory; a model file ([`crate::model_file`]) is one client of it.
+//!
+//! ```
+//! use dynabs::problem::{
+//!     DrawnNoise, GaussianNoise, InputSet, LinearDynamics, Partition, Problem, RegionBox, Task,
+//! };
+//!
+//! # fn main() -> Result<(), dynabs::Diagnostic> {
+//! // x⁺ = x + u + η, to be brought near 0 within five steps.
+//! let dynamics = LinearDynamics { a: vec![vec![1.0]], b: vec![vec![1.0]], q: None };
+//! let noise = GaussianNoise { mean: None, covariance: vec![vec![0.01]] };
+//! let problem = Problem::builder(dynamics, InputSet::Box { lower: vec![-1.0], upper: vec![1.0] })
+//!     .partition(Partition { lower: vec![-4.0], upper: vec![4.0], cells: vec![40] })
+//!     .task(Task::reach(vec![RegionBox { lower: vec![-0.4], upper: vec![0.4] }]).within(5).at_least(0.9))
+//!     .noise(DrawnNoise { distribution: noise, count: 1000, seed: 1 })
+//!     .initial_state(vec![2.5])
+//!     .build()?;
+//! assert_eq!(problem.group_steps(), 1);
+//!
+//! let abstraction = dynabs::abstraction::compile(&problem, &()).unwrap();
+//! assert!(abstraction.model.num_states() > 30);
+//! # Ok(())
+//! # }
+//! ```
+
+mod builder;
+mod dynamics;
+mod input_set;
+mod lower_layer;
+mod noise;
+mod probabilities;
+#[expect(clippy::module_inception, reason = "the file of the type is called after it, as everywhere")]
+mod problem;
+mod regions;
+mod task;
+mod values;
+
+pub use builder::ProblemBuilder;
+pub use dynamics::{Dynamics, GroupSteps, LinearDynamics};
+pub use input_set::InputSet;
+pub use lower_layer::{Gain, LowerLayer, LqrWeights, Stabilizer};
+pub use noise::{
+    DrawnNoise, GaussianNoise, GivenSamples, NoiseOrigin, NoiseSource, SampleKind, SampledNoise, SamplesFile,
+    StepNoise,
+};
+pub use probabilities::Probabilities;
+pub use problem::{Actions, Objective, Problem, TargetPoints};
+pub use regions::{Partition, RegionBox, TargetChoice};
+pub use task::{Aim, Horizon, Task};

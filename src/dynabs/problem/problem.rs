@@ -1,0 +1,174 @@
+//! A control problem that is known to make sense.
+
+use super::{Dynamics, InputSet, Probabilities, ProblemBuilder, SampledNoise, Stabilizer};
+use crate::geometry::Polytope;
+use crate::partition::{CellId, CellLabels, Grid, Region};
+use crate::system::LinearSystem;
+use imdp::numeric::Rational;
+use imdp::property::Probability;
+
+/// A validated control problem: everything that can be said before cells and samples meet.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    pub(super) name: String,
+    pub(super) step_system: LinearSystem,
+    pub(super) step_input: Polytope,
+    pub(super) group_steps: usize,
+    pub(super) system: LinearSystem,
+    pub(super) input: Polytope,
+    pub(super) stabilizer: Option<Stabilizer>,
+    pub(super) grid: Grid,
+    pub(super) labels: CellLabels,
+    pub(super) objective: Objective,
+    pub(super) unsafe_: Vec<Region>,
+    pub(super) actions: Actions,
+    pub(super) horizon: Option<u64>,
+    pub(super) threshold: Option<Probability>,
+    pub(super) initial: Option<InitialState>,
+    pub(super) probabilities: Probabilities,
+    pub(super) noise: SampledNoise,
+    pub(super) warnings: Vec<String>,
+}
+
+/// An initial state and its cell.
+#[derive(Clone, Debug)]
+pub(super) struct InitialState {
+    pub(super) state: Vec<f64>,
+    pub(super) cell: CellId,
+}
+
+/// What is wanted of the closed loop, besides staying out of the unsafe region.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Objective {
+    /// To reach a region.
+    Reach {
+        /// The goal, a union of boxes.
+        goal: Vec<Region>,
+    },
+}
+
+/// What the controller chooses from in every cell.
+#[derive(Clone, Debug)]
+pub enum Actions {
+    /// Points to steer to.
+    Targets(TargetPoints),
+}
+
+/// The points that actions steer to.
+#[derive(Clone, Debug)]
+pub enum TargetPoints {
+    /// The centers of all cells.
+    Centers,
+    /// The centers of the cells of a grid.
+    Grid(Grid),
+    /// A list of points.
+    List(Vec<Vec<Rational>>),
+}
+
+impl Problem {
+    /// Begins a problem for a system and the inputs allowed in one step.
+    pub fn builder(system: impl Into<Dynamics>, input: InputSet) -> ProblemBuilder {
+        ProblemBuilder::new(system.into(), input)
+    }
+
+    /// The name of the model.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The system of one step.
+    pub fn step_system(&self) -> &LinearSystem {
+        &self.step_system
+    }
+
+    /// The inputs of one step, `U`.
+    pub fn step_input(&self) -> &Polytope {
+        &self.step_input
+    }
+
+    /// How many steps are grouped, `d`.
+    pub fn group_steps(&self) -> usize {
+        self.group_steps
+    }
+
+    /// The grouped system.
+    pub fn system(&self) -> &LinearSystem {
+        &self.system
+    }
+
+    /// The inputs of the grouped system, `Uᵈ`.
+    pub fn input(&self) -> &Polytope {
+        &self.input
+    }
+
+    /// The lower layer, if there is one.
+    pub fn stabilizer(&self) -> Option<&Stabilizer> {
+        self.stabilizer.as_ref()
+    }
+
+    /// The partition.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// What the cells mean to the task.
+    pub fn labels(&self) -> &CellLabels {
+        &self.labels
+    }
+
+    /// What is wanted.
+    pub fn objective(&self) -> &Objective {
+        &self.objective
+    }
+
+    /// The goal region, empty if nothing is to be reached.
+    pub fn goal(&self) -> &[Region] {
+        let Objective::Reach { goal } = &self.objective;
+        goal
+    }
+
+    /// The unsafe region.
+    pub fn unsafe_regions(&self) -> &[Region] {
+        &self.unsafe_
+    }
+
+    /// What the controller chooses from.
+    pub fn actions(&self) -> &Actions {
+        &self.actions
+    }
+
+    /// The number of grouped steps, or `None` for an unbounded task.
+    pub fn horizon(&self) -> Option<u64> {
+        self.horizon
+    }
+
+    /// The probability that is wanted.
+    pub fn threshold(&self) -> Option<&Probability> {
+        self.threshold.as_ref()
+    }
+
+    /// The initial state, if one was given.
+    pub fn initial_state(&self) -> Option<&[f64]> {
+        self.initial.as_ref().map(|initial| initial.state.as_slice())
+    }
+
+    /// The cell of the initial state, if one was given.
+    pub fn initial_cell(&self) -> Option<CellId> {
+        self.initial.as_ref().map(|initial| initial.cell)
+    }
+
+    /// How intervals are computed.
+    pub fn probabilities(&self) -> &Probabilities {
+        &self.probabilities
+    }
+
+    /// What is known of the noise.
+    pub fn noise(&self) -> &SampledNoise {
+        &self.noise
+    }
+
+    /// What the user should know.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+}
