@@ -65,6 +65,8 @@ fn assert_accepted(model: &IntervalMdp, resolution: Resolution, solution: &mut S
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
+
     #[test]
     fn strategies_and_iteration_agree(
         states in prop::collection::vec(prop::collection::vec(
@@ -74,7 +76,7 @@ proptest! {
         let model = model(&states, 0.01 * 10f64.powi(-slowness));
         let all = { let mut all = StateSet::with_capacity(STATES + 2); all.insert_range(..); all };
         let goal = model.labels().get("goal").unwrap().clone();
-        let options = SolverOptions { evidence: true, max_iterations: 100_000, ..SolverOptions::default() };
+        let options = SolverOptions { evidence: true, max_iterations: 2_000, ..SolverOptions::default() };
         for resolution in Resolution::ALL {
             let solve = |patience| {
                 until_with_patience(&model, (&all, &goal), Players::from(resolution), &options, patience).unwrap()
