@@ -2,19 +2,23 @@
 
 mod appearance;
 mod files;
+mod input_run;
 mod manifest;
 mod open;
 mod pruning;
 mod record;
 mod row_states;
+mod solution;
 mod staging;
 mod write;
 
 pub use files::RunFiles;
+pub use input_run::{InputRun, write_input_run};
 pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile};
 pub use open::{OpenError, Run};
 pub use pruning::PruningReport;
 pub use record::{RecordError, open_record};
 pub use row_states::RowStatesReport;
+pub use solution::solution_options;
 pub use staging::{RunDirectoryError, Staging};
 pub use write::{NATIVE_MODEL, WriteOptions, write_run};

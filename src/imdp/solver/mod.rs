@@ -27,6 +27,7 @@ mod expectation;
 mod extrapolate;
 mod graph;
 mod guess;
+mod history;
 mod options;
 mod policy;
 mod prune;

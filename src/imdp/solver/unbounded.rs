@@ -103,7 +103,7 @@ pub(super) fn until_with_patience(
     if status == Status::Converged && values.gap() > options.epsilon {
         status = Status::PrecisionLimit;
     }
-    Ok(Solution { values, status, iterations: control.iterations, policy, evidence })
+    Ok(Solution { values, status, iterations: control.iterations, policy, history: vec![], evidence })
 }
 
 /// A strong component of the graph of states and rows.
