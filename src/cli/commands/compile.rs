@@ -1,12 +1,13 @@
 //! `dynabs-compile`: from a model file to PRISM files.
 
+use super::compile_inputs;
 use super::solve::{LimitArguments, Wanted, answer};
 use crate::results::{PropertyResult, exit_code, table};
 use crate::summary::summary;
 use crate::{Bars, CliError, EncodingName, FormatName, print, use_threads};
 use clap::Parser;
 use dynabs::abstraction::{Abstraction, compile};
-use dynabs::model_file::{Document, SetArgument, json_schema, starter_model};
+use dynabs::model_file::{Document, SetArgument, StatedProblem, json_schema, starter_model};
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, write_run};
 use imdp::solver::Pruned;
 use serde_json::{Value, json};
@@ -146,7 +147,17 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
     }
     let source = read_model(path)?;
     let (document, mut notes) = configure(path, &source, arguments)?;
-    let problem = document.problem()?;
+    let problem = match document.stated()? {
+        StatedProblem::Targets(problem) => *problem,
+        StatedProblem::Inputs(problem) => {
+            let wanted = compile_inputs::Wanted {
+                solve: arguments.solve,
+                json: arguments.json,
+                quiet: arguments.quiet,
+            };
+            return compile_inputs::compile_inputs(&document, &problem, &wanted, &notes, start, &bars);
+        }
+    };
     let mut phases = vec![("model file", start.elapsed())];
 
     let mut abstraction =

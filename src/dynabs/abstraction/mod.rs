@@ -9,6 +9,7 @@ mod compile;
 mod count_table;
 mod enabled;
 mod error;
+pub mod inputs;
 mod landing;
 mod landings;
 mod outcomes;

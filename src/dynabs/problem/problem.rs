@@ -45,6 +45,11 @@ pub enum Objective {
         /// The goal, a union of boxes.
         goal: Vec<Region>,
     },
+    /// To stay in a region.
+    Stay {
+        /// The region, a union of boxes; empty for the whole partition.
+        safe: Vec<Region>,
+    },
 }
 
 /// What the controller chooses from in every cell.
@@ -123,8 +128,10 @@ impl Problem {
 
     /// The goal region, empty if nothing is to be reached.
     pub fn goal(&self) -> &[Region] {
-        let Objective::Reach { goal } = &self.objective;
-        goal
+        match &self.objective {
+            Objective::Reach { goal } => goal,
+            Objective::Stay { .. } => &[],
+        }
     }
 
     /// The unsafe region.
