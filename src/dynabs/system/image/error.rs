@@ -11,8 +11,8 @@ use crate::system::expression::{Function, Node};
 pub struct ImageError {
     /// The name of the state whose next value it is.
     pub state: String,
-    /// Which text of the model the operation is written in, and its column from 1, where that is known.
-    pub place: Option<(u32, u32)>,
+    /// The name of the text that the operation is written in, and its column from 1, where that is known.
+    pub place: Option<(String, u32)>,
     /// The cell, as a product of intervals.
     pub cell: String,
     /// What was found.
