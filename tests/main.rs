@@ -18,6 +18,7 @@ mod guarantee;
 mod import;
 mod intervals;
 mod native;
+mod noise_masses;
 mod open;
 mod output;
 mod paper;

@@ -66,6 +66,38 @@ pub(super) fn write_policy(path: &Path, model: &IntervalMdp, policy: &Policy) ->
     })
 }
 
+/// Writes the lower bound of every cell, one per line.
+///
+/// # Errors
+/// [`CliError::Failure`] if writing fails.
+pub(super) fn write_cell_values(path: &Path, lower: &[f64]) -> Result<(), CliError> {
+    replace(path, |out| {
+        lower.iter().try_for_each(|&value| writeln!(out, "{}", imdp::numeric::shortest_decimal(value)))
+    })
+}
+
+/// Writes `cell=input`, or `cell,step=input` for a policy that changes over time; a step counts the steps elapsed.
+///
+/// # Errors
+/// [`CliError::Failure`] if writing fails.
+pub(super) fn write_cell_policy(path: &Path, policy: &Policy, cells: u32) -> Result<(), CliError> {
+    replace(path, |out| {
+        for cell in 0..cells {
+            match policy.horizon() {
+                None => policy.choice(cell, 0).map_or(Ok(()), |input| writeln!(out, "{cell}=u_{input}"))?,
+                Some(horizon) => {
+                    for step in 0..horizon {
+                        policy
+                            .choice(cell, step)
+                            .map_or(Ok(()), |input| writeln!(out, "{cell},{step}=u_{input}"))?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    })
+}
+
 /// Writes a certificate.
 ///
 /// # Errors

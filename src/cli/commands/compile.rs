@@ -150,12 +150,16 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
     let problem = match document.stated()? {
         StatedProblem::Targets(problem) => *problem,
         StatedProblem::Inputs(problem) => {
+            let output = arguments.output.as_deref().filter(|_| !arguments.dry_run);
             let wanted = compile_inputs::Wanted {
+                output: output.map(|output| (output, write_options(arguments))),
+                set: &arguments.set,
                 solve: arguments.solve,
                 json: arguments.json,
                 quiet: arguments.quiet,
             };
-            return compile_inputs::compile_inputs(&document, &problem, &wanted, &notes, start, &bars);
+            let sources = (&document, source.as_str());
+            return compile_inputs::compile_inputs(sources, &problem, &wanted, notes, start, &bars);
         }
     };
     let mut phases = vec![("model file", start.elapsed())];
@@ -182,15 +186,7 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
 
     if let Some(output) = arguments.output.as_deref().filter(|_| !arguments.dry_run) {
         let writing = Instant::now();
-        let options = WriteOptions {
-            formats: if arguments.no_tra {
-                vec![]
-            } else {
-                arguments.format.iter().map(|&name| name.into()).collect()
-            },
-            encoding: arguments.encoding.into(),
-            force: arguments.force,
-        };
+        let options = write_options(arguments);
         manifest = write_run(output, &document, &problem, &abstraction, manifest, options, &*bars)?;
         phases.push(("files", writing.elapsed()));
     }
@@ -208,6 +204,15 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
     }
     report(arguments, &manifest, &phases, &results)?;
     Ok(exit_code(&results))
+}
+
+fn write_options(arguments: &Arguments) -> WriteOptions {
+    let formats = arguments.format.iter().map(|&name| name.into());
+    WriteOptions {
+        formats: if arguments.no_tra { vec![] } else { formats.collect() },
+        encoding: arguments.encoding.into(),
+        force: arguments.force,
+    }
 }
 
 /// Replaces the model by what an optimal policy needs of it.

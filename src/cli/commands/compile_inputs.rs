@@ -5,14 +5,22 @@ use crate::{Bars, CliError, print};
 use dynabs::abstraction::inputs::{InputAbstraction, InputsError};
 use dynabs::model_file::Document;
 use dynabs::problem::InputProblem;
+use dynabs::run::{Manifest, WriteOptions, write_input_run};
+use imdp::progress::Progress;
 use imdp::solver::SolverOptions;
-use serde_json::json;
+use serde_json::{Map, Value, json};
 use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// What is wanted.
-pub(super) struct Wanted {
+pub(super) struct Wanted<'a> {
+    /// Where to write what.
+    pub(super) output: Option<(&'a Path, WriteOptions)>,
+    /// What `--set` changed.
+    pub(super) set: &'a [String],
     pub(super) solve: bool,
     pub(super) json: bool,
     pub(super) quiet: bool,
@@ -23,18 +31,26 @@ pub(super) struct Wanted {
 /// # Errors
 /// [`CliError`], which knows its exit code.
 pub(super) fn compile_inputs(
-    document: &Document,
+    (document, source): (&Document, &str),
     problem: &InputProblem,
-    wanted: &Wanted,
-    notes: &[String],
+    wanted: &Wanted<'_>,
+    notes: Vec<String>,
     start: Instant,
-    bars: &Bars,
+    bars: &Arc<Bars>,
 ) -> Result<ExitCode, CliError> {
     let read = start.elapsed();
     let abstraction = InputAbstraction::new(problem).map_err(|error| of_inputs(&error, &document.name))?;
     bars.catch_interrupts()?;
     let mut phases = vec![("model file", read)];
     phases.extend(&abstraction.phases);
+    let mut manifest = Manifest::of_inputs(document, source, problem, &abstraction);
+    manifest.set = wanted.set.to_vec();
+    manifest.warnings.extend(notes);
+    if let Some((output, options)) = &wanted.output {
+        let writing = Instant::now();
+        manifest = write_input_run(output, document, problem, &abstraction, manifest, options, &**bars)?;
+        phases.push(("files", writing.elapsed()));
+    }
     let solving = Instant::now();
     let result = if wanted.solve {
         let progress =
@@ -53,30 +69,35 @@ pub(super) fn compile_inputs(
     };
     if !wanted.quiet {
         let mut text: String =
-            problem.warnings().iter().chain(notes).map(|warning| format!("warning: {warning}\n")).collect();
+            manifest.warnings.iter().map(|warning| format!("warning: {warning}\n")).collect();
         let times: Vec<_> = phases.iter().map(|(name, time)| format!("{name} {time:.1?}")).collect();
         text += &format!("times: {}\n", times.join(", "));
         // If stderr is closed there is nobody to warn.
         let _ = io::stderr().write_all(text.as_bytes());
     }
     if wanted.json {
+        let seconds: Map<String, Value> =
+            phases.iter().map(|(name, time)| ((*name).to_owned(), time.as_secs_f64().into())).collect();
         let object = json!({
-            "name": problem.name(),
-            "actions": "inputs",
             "cells": problem.grid().num_cells(),
             "inputs": problem.inputs().len(),
             "choices": abstraction.num_choices(),
             "resolution": abstraction.resolution,
+            "manifest": manifest,
             "result": result,
+            "seconds": seconds,
         });
         print(&format!("{object:#}\n"))?;
     } else if !wanted.quiet {
         let initial =
             if problem.initial_state().is_some() { "at the initial state" } else { "over all cells" };
-        print(
-            &(summary(problem, &abstraction)
-                + &result.as_ref().map_or(String::new(), |result| result.text(initial))),
-        )?;
+        let mut text = summary(problem, &abstraction);
+        if let Some((output, _)) = &wanted.output {
+            let bytes: u64 = manifest.outputs.iter().map(|file| file.bytes).sum();
+            text += &format!("  {:<13}{} ({:.1} MB)\n", "written", output.display(), bytes as f64 / 1e6);
+        }
+        text += &result.as_ref().map_or(String::new(), |result| result.text(initial));
+        print(&text)?;
     }
     Ok(result.map_or(ExitCode::SUCCESS, |result| result.exit_code()))
 }

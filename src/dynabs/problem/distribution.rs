@@ -102,8 +102,11 @@ pub enum DistributionParts {
 const MOST_DEGREES: u32 = 1000;
 
 impl DistributionParts {
-    /// The distribution, if its numbers make one.
-    pub(super) fn distribution(&self, place: &str) -> Result<Distribution, Diagnostic> {
+    /// The distribution, if its numbers make one; `place` is where they are.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] for the first mistake found.
+    pub fn distribution(&self, place: &str) -> Result<Distribution, Diagnostic> {
         let number = |name: &str, x: f64| {
             let at = || Diagnostic::at(format!("{place}/{name}"), x.to_string(), "a finite number");
             from_decimal(x).ok_or_else(at)

@@ -2,6 +2,7 @@
 
 use super::{Dynamics, InputSet, Probabilities, ProblemBuilder, SampledNoise, Stabilizer};
 use crate::geometry::Polytope;
+use crate::landing::Aim;
 use crate::partition::{CellId, CellLabels, Grid, Region};
 use crate::system::LinearSystem;
 use imdp::numeric::Rational;
@@ -50,6 +51,16 @@ pub enum Objective {
         /// The region, a union of boxes; empty for the whole partition.
         safe: Vec<Region>,
     },
+}
+
+impl Objective {
+    /// Whether something is to be reached or to be kept.
+    pub fn aim(&self) -> Aim {
+        match self {
+            Self::Reach { .. } => Aim::Reach,
+            Self::Stay { .. } => Aim::Stay,
+        }
+    }
 }
 
 /// What the controller chooses from in every cell.

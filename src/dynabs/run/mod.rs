@@ -1,5 +1,6 @@
 //! The output directory of a run: staged, hashed, renamed into place, described by a manifest; and opened again.
 
+mod input_run;
 mod manifest;
 mod open;
 mod pruning;
@@ -8,6 +9,7 @@ mod row_states;
 mod staging;
 mod write;
 
+pub use input_run::{InputRun, write_input_run};
 pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile};
 pub use open::{OpenError, Run};
 pub use pruning::PruningReport;

@@ -102,6 +102,14 @@ pub enum OpenError {
         /// What is wrong with it.
         error: NativeError,
     },
+    /// A problem whose actions are inputs has no abstraction any more.
+    #[error("{path}: {error}")]
+    Inputs {
+        /// The directory.
+        path: String,
+        /// Why.
+        error: crate::abstraction::inputs::InputsError,
+    },
     /// Problem and model do not fit.
     #[error("{path}: {error}\n  Compile the model again with this version of dynabs.")]
     Abstraction {
@@ -156,7 +164,7 @@ impl Run {
     }
 }
 
-fn read_manifest(directory: &Path) -> Result<Manifest, OpenError> {
+pub(super) fn read_manifest(directory: &Path) -> Result<Manifest, OpenError> {
     let refuse = |found: String| OpenError::NoRun { path: directory.display().to_string(), found };
     if !directory.is_dir() {
         let found = if directory.exists() { "a file" } else { "nothing" };
@@ -172,7 +180,7 @@ fn read_manifest(directory: &Path) -> Result<Manifest, OpenError> {
     if manifest.is_ours() { Ok(manifest) } else { Err(refuse(format!("the {MANIFEST} of another format"))) }
 }
 
-fn read_verified(directory: &Path, name: &str, manifest: &Manifest) -> Result<Vec<u8>, OpenError> {
+pub(super) fn read_verified(directory: &Path, name: &str, manifest: &Manifest) -> Result<Vec<u8>, OpenError> {
     let path = directory.join(name);
     let bytes = fs::read(&path).map_err(|error| match error.kind() {
         io::ErrorKind::NotFound => {

@@ -9,7 +9,7 @@ mod tables;
 use crate::landing::{Aim, Axis, Images as LandedImages, Landing, LandingError, Question};
 use crate::noise::known::Distribution;
 use crate::partition::{CellId, CellKind};
-use crate::problem::{InputProblem, Objective};
+use crate::problem::InputProblem;
 use crate::system::{ImageError, Images, Lattice};
 use imdp::property::{PathFormula, Property, Resolution, StateFormula};
 use std::time::{Duration, Instant};
@@ -86,10 +86,7 @@ impl InputAbstraction {
         let landing = Landing::new((0..grid.dimension()).map(axis).collect());
         let images = LandedImages::new(&tables, &ordinary, landing.axes())?;
         let open = images.acting();
-        let aim = match problem.objective() {
-            Objective::Reach { .. } => Aim::Reach,
-            Objective::Stay { .. } => Aim::Stay,
-        };
+        let aim = problem.objective().aim();
         let phases = vec![("images", tabulated), ("landing", start.elapsed() - tabulated)];
         Ok(Self {
             blocked: ordinary.len() - open.len(),
@@ -115,10 +112,24 @@ impl InputAbstraction {
         self.images.len()
     }
 
-    /// The task as a property of the model with its `micro_steps`; with `Pmaxmin` its value is the lower bound, with
-    /// `Pmaxmax` the upper one.
-    pub fn property(&self, resolution: Resolution, micro_steps: u64) -> Property {
-        let steps = self.steps.map(|steps| steps * micro_steps);
+    /// How many steps of the model are one of the system.
+    pub fn micro_steps(&self) -> u64 {
+        self.landing.micro_steps()
+    }
+
+    /// The most mass of a component of the noise that is not listed.
+    pub fn unlisted(&self) -> f64 {
+        self.landing.axes().iter().flat_map(|axis| &axis.noise).map(|taps| taps.slack()).fold(0.0, f64::max)
+    }
+
+    /// Whether something could be decided in a cell but no input is enabled.
+    pub fn is_blocked(&self, cell: CellId) -> bool {
+        self.open.binary_search(&cell.0).is_err() && !self.goal[cell.index()]
+    }
+
+    /// The task as a property of the model; with `Pmaxmin` its value is the lower bound, with `Pmaxmax` the upper one.
+    pub fn property(&self, resolution: Resolution) -> Property {
+        let steps = self.steps.map(|steps| steps.saturating_mul(self.micro_steps()));
         let safe = StateFormula::negation(StateFormula::label("failed"));
         let path = match self.aim {
             Aim::Reach => PathFormula::Until { left: safe, right: StateFormula::label("reached"), steps },
