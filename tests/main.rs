@@ -30,5 +30,6 @@ mod riccati;
 mod simulate;
 mod solver;
 mod steering;
+mod systems;
 mod values;
 mod verify;
