@@ -25,6 +25,7 @@ mod paper;
 mod predecessors;
 mod prune;
 mod references;
+mod reliability;
 mod report;
 mod riccati;
 mod simulate;

@@ -1,7 +1,7 @@
 //! `dynabs-compile` for actions that are inputs.
 
 use crate::input_summary::{InputResult, summary};
-use crate::{Bars, CliError, print};
+use crate::{Bars, CliError, print, warn};
 use dynabs::abstraction::inputs::{InputAbstraction, InputsError};
 use dynabs::model_file::Document;
 use dynabs::problem::InputProblem;
@@ -9,7 +9,6 @@ use dynabs::run::{Manifest, WriteOptions, write_input_run};
 use imdp::progress::Progress;
 use imdp::solver::SolverOptions;
 use serde_json::{Map, Value, json};
-use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -40,7 +39,7 @@ pub(super) fn compile_inputs(
 ) -> Result<ExitCode, CliError> {
     let read = start.elapsed();
     let abstraction = InputAbstraction::new(problem).map_err(|error| of_inputs(&error, &document.name))?;
-    bars.catch_interrupts()?;
+    bars.catch_interrupts();
     let mut phases = vec![("model file", read)];
     phases.extend(&abstraction.phases);
     let mut manifest = Manifest::of_inputs(document, source, problem, &abstraction);
@@ -68,12 +67,9 @@ pub(super) fn compile_inputs(
         None
     };
     if !wanted.quiet {
-        let mut text: String =
-            manifest.warnings.iter().map(|warning| format!("warning: {warning}\n")).collect();
+        manifest.warnings.iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
         let times: Vec<_> = phases.iter().map(|(name, time)| format!("{name} {time:.1?}")).collect();
-        text += &format!("times: {}\n", times.join(", "));
-        // If stderr is closed there is nobody to warn.
-        let _ = io::stderr().write_all(text.as_bytes());
+        warn(&format!("times: {}\n", times.join(", ")));
     }
     if wanted.json {
         let seconds: Map<String, Value> =

@@ -66,7 +66,7 @@ fn write_inputs(
     bars: &Arc<Bars>,
 ) -> Result<ExitCode, CliError> {
     let path = &arguments.output;
-    bars.catch_interrupts()?;
+    bars.catch_interrupts();
     let options = SolverOptions { policy: true, ..SolverOptions::default() };
     let solved = SolvedInputs::open(&arguments.directory, &options, bars)?;
     let (controller, problem) = (solved.controller(), &solved.run.problem);

@@ -135,7 +135,7 @@ pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, CliError> {
 
 /// The true system of a run whose actions are inputs.
 fn simulate_inputs(arguments: &SimulateArguments, bars: &Arc<Bars>) -> Result<ExitCode, CliError> {
-    bars.catch_interrupts()?;
+    bars.catch_interrupts();
     let options = SolverOptions { policy: true, ..SolverOptions::default() };
     let solved = SolvedInputs::open(&arguments.directory, &options, bars)?;
     let (controller, problem) = (solved.controller(), &solved.run.problem);

@@ -1,9 +1,11 @@
 //! Runs of problems whose actions are inputs: written, and opened again.
 
+use super::RunFiles;
+use super::appearance::PROBLEM;
 use super::manifest::{GroupedHorizon, InputFile, Manifest};
-use super::open::{OpenError, read_manifest, read_verified};
+use super::open::{OpenError, problem_document};
 use super::staging::{RunDirectoryError, Staging};
-use super::write::{PROBLEM, WriteOptions};
+use super::write::WriteOptions;
 use crate::abstraction::inputs::InputAbstraction;
 use crate::guarantee::{Event, Evidence, Guarantee};
 use crate::landing::{LandingModel, LandingSolution};
@@ -35,7 +37,8 @@ pub struct InputRun {
 impl InputRun {
     /// Whether a directory has such a run; nothing is checked yet.
     pub fn is_in(directory: &Path) -> bool {
-        read_manifest(directory).is_ok_and(|manifest| manifest.micro_steps.is_some())
+        let manifest = RunFiles::find(directory).ok().flatten().and_then(|files| files.manifest().ok());
+        manifest.is_some_and(|manifest| manifest.micro_steps.is_some())
     }
 
     /// Opens a directory: nothing in it is believed before its hash is that of the manifest.
@@ -43,11 +46,13 @@ impl InputRun {
     /// # Errors
     /// [`OpenError`] if something is missing, changed, or made by an incompatible version.
     pub fn open(directory: &Path) -> Result<Self, OpenError> {
-        let manifest = read_manifest(directory)?;
-        let path = directory.join(PROBLEM);
-        let text = String::from_utf8_lossy(&read_verified(directory, PROBLEM, &manifest)?).into_owned();
         let shown = || directory.display().to_string();
-        let StatedProblem::Inputs(problem) = Document::parse(&path, &text)?.stated()? else {
+        let files = RunFiles::find(directory)?;
+        let files =
+            files.ok_or_else(|| OpenError::NoRun { path: shown(), found: "no manifest.json".into() })?;
+        let manifest = files.manifest()?;
+        let document = problem_document(directory, &files.read(PROBLEM)?)?;
+        let StatedProblem::Inputs(problem) = document.stated()? else {
             return Err(OpenError::NoRun {
                 path: shown(),
                 found: "a problem whose actions are targets".into(),

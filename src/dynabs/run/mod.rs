@@ -1,5 +1,7 @@
 //! The output directory of a run: staged, hashed, renamed into place, described by a manifest; and opened again.
 
+mod appearance;
+mod files;
 mod input_run;
 mod manifest;
 mod open;
@@ -9,6 +11,7 @@ mod row_states;
 mod staging;
 mod write;
 
+pub use files::RunFiles;
 pub use input_run::{InputRun, write_input_run};
 pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile};
 pub use open::{OpenError, Run};

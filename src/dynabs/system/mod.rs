@@ -18,7 +18,7 @@ mod two_layer;
 
 pub use feedback::Feedback;
 pub use gain::narrowing_gain;
-pub use grouping::{group, smallest_group};
+pub use grouping::{TooManyDigits, group, require_digits, smallest_group};
 pub use image::{ImageError, ImageScratch, Images, Lattice, LatticeRange};
 pub use interval::Interval;
 pub use law::{Extent, FeedbackLaw, SteeringConstraint, decimal_gain, lower_layer_violation};

@@ -1,7 +1,7 @@
 //! Random properties print and parse back; random texts are refused without a panic.
 
 use crate::property::{
-    Comparison, IntegerExpression, Optimum, PathFormula, Probability, Property, Question, Resolution,
+    IntegerExpression, Optimum, PathFormula, Probability, Property, Question, Relation, Resolution,
     StateFormula, Threshold, ThresholdComparison, parse_properties,
 };
 use proptest::option;
@@ -26,13 +26,13 @@ fn integer() -> impl Strategy<Value = IntegerExpression> {
     })
 }
 
-fn comparison() -> impl Strategy<Value = Comparison> {
-    use Comparison::{Equal, Greater, GreaterEqual, Less, LessEqual, NotEqual};
+fn comparison() -> impl Strategy<Value = Relation> {
+    use Relation::{Equal, Greater, GreaterEqual, Less, LessEqual, NotEqual};
     prop::sample::select(vec![Equal, NotEqual, Less, LessEqual, Greater, GreaterEqual])
 }
 
 fn formula() -> impl Strategy<Value = StateFormula> {
-    use StateFormula::{And, Compare, False, Iff, Implies, Label, Not, Or, True, Variable};
+    use StateFormula::{And, Compare, Differ, False, Iff, Implies, Label, Not, Or, True, Variable};
     let leaf = prop_oneof![
         Just(True),
         Just(False),
@@ -48,6 +48,8 @@ fn formula() -> impl Strategy<Value = StateFormula> {
             prop::collection::vec(inner.clone(), 2..4).prop_map(Or),
             pair().prop_map(|(left, right)| Implies(left, right)),
             pair().prop_map(|(left, right)| Iff(left, right)),
+            // Two variables are compared as integers.
+            (inner.clone(), name()).prop_map(|(left, name)| Differ(Box::new(left), Box::new(Label(name)))),
         ]
     })
 }
