@@ -42,7 +42,7 @@ pub enum DistributionParts {
     },
     /// `mean + scale · T` with `T` of Student's distribution.
     StudentT {
-        /// The centre; 0 if absent.
+        /// The center; 0 if absent.
         #[serde(default)]
         mean: f64,
         /// The scale, positive.

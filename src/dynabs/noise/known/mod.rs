@@ -1,7 +1,7 @@
 //! Known distributions of one component of the noise, with rigorous bounds on the mass of every interval.
 //!
 //! Parameters are the decimals as written. What is rational (uniform, triangular, atoms, tables) is computed as such; the
-//! others are symmetric about their centre and given by their tail, in interval arithmetic on correctly rounded
+//! others are symmetric about their center and given by their tail, in interval arithmetic on correctly rounded
 //! functions. Intervals are half-open, `[a, b)`, like cells.
 
 mod draw;
@@ -38,7 +38,7 @@ pub enum Distribution {
     },
     /// `mean + scale · T` with `T` of Student's distribution.
     StudentT {
-        /// The centre.
+        /// The center.
         mean: Rational,
         /// The scale, positive.
         scale: Rational,

@@ -1,4 +1,4 @@
-//! Upper tails of the distributions that are symmetric about their centre.
+//! Upper tails of the distributions that are symmetric about their center.
 
 use super::Distribution;
 use crate::system::Interval;
