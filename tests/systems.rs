@@ -93,7 +93,7 @@ fn mistakes_have_a_place_and_a_remedy() {
         (&["/dynamics/next/1=\"v + f\""][..], "/dynamics/next/1 (column 5): found the unknown name \"f\""),
         (&["/dynamics/next/0=\"p + 2 v\""], "/dynamics/next/0 (column 7): found \"v\""),
         (&["/dynamics/next/0=\"p/(1-1)\""], "(column 2): found a division by 0"),
-        (&["/dynamics/next=[\"p\"]"], "found 1 name"),
+        (&["/dynamics/next=[\"p\"]"], "/dynamics/states: found 2 names; expected 1"),
         (&["/dynamics/constants/drag=\"2*v\""], "/dynamics/constants/drag (column 3)"),
         (&["/dynamics/definitions/p=\"1\""], "/dynamics/definitions/p"),
         (&["/dynamics/definitions/sin=\"1\""], "has a meaning of its own"),
