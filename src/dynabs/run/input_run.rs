@@ -58,8 +58,8 @@ impl InputRun {
                 found: "a problem whose actions are targets".into(),
             });
         };
-        let abstraction =
-            InputAbstraction::new(&problem).map_err(|error| OpenError::Inputs { path: shown(), error })?;
+        let abstraction = InputAbstraction::new(&problem)
+            .map_err(|error| OpenError::Inputs { path: shown(), error: Box::new(error) })?;
         Ok(Self { directory: directory.to_path_buf(), manifest, problem: *problem, abstraction })
     }
 

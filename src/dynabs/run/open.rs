@@ -120,7 +120,7 @@ pub enum OpenError {
         /// The directory.
         path: String,
         /// Why.
-        error: crate::abstraction::inputs::InputsError,
+        error: Box<crate::abstraction::inputs::InputsError>,
     },
     /// Problem and model do not fit.
     #[error("{path}: {error}\n  Compile the model again with this version of dynabs.")]

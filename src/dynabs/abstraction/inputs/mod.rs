@@ -37,7 +37,7 @@ pub struct InputAbstraction {
 pub enum InputsError {
     /// The dynamics are undefined somewhere.
     #[error("{error}\n  {remedy}", error = .0, remedy = ImageError::REMEDY)]
-    Image(#[from] ImageError),
+    Image(Box<ImageError>),
     /// The lattice or the list of images is too large.
     #[error("{0}\n  Use fewer cells or inputs, or a coarser /partition/resolution.")]
     Landing(#[from] LandingError),

@@ -46,7 +46,8 @@ impl<'a> Tables<'a> {
             };
             (0..entries as usize).into_par_iter().map(entry).collect::<Result<Vec<_>, _>>().map(Some)
         };
-        let ranges = (0..images.num_rows()).map(table).collect::<Result<_, _>>()?;
+        let ranges = (0..images.num_rows()).map(table).collect::<Result<_, _>>();
+        let ranges = ranges.map_err(|error| InputsError::Image(Box::new(error)))?;
         Ok(Self { grid, images, inputs, ranges })
     }
 
