@@ -6,6 +6,7 @@
 //! | [`property`] | PRISM's property language, as far as it speaks of interval models |
 //! | [`formats`] | PRISM's explicit files, DRN, UMB and a native format, read and written |
 //! | [`solver`] | robust value iteration with bounds from both sides, policies |
+//! | [`solution_file`] | a solution stored, so that nobody need solve again |
 //! | [`certificate`], [`verify`] | what proves a result, and the checker in exact arithmetic |
 //! | [`compare`] | what differs between two runs |
 //! | [`engines`] | PRISM and Storm, asked the same questions |
@@ -24,5 +25,6 @@ pub mod model;
 pub mod numeric;
 pub mod progress;
 pub mod property;
+pub mod solution_file;
 pub mod solver;
 pub mod verify;

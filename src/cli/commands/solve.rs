@@ -194,14 +194,14 @@ fn write_files(
 }
 
 /// What is wanted of an answer besides the values.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Wanted {
-    pub(super) policy: bool,
-    pub(super) evidence: bool,
+#[derive(Clone, Copy)]
+struct Wanted {
+    policy: bool,
+    evidence: bool,
 }
 
 /// Answers one property, with the current gap on display.
-pub(super) fn answer(
+fn answer(
     model: &IntervalMdp,
     property: &Property,
     limits: &LimitArguments,
@@ -237,8 +237,7 @@ impl LimitArguments {
             time_limit: self.time_limit.map(Duration::from_secs_f64),
             interrupt: Some(bars.interrupt()),
             progress: Some(&progress),
-            policy: false,
-            evidence: false,
+            ..SolverOptions::default()
         });
         bars.finish();
         result

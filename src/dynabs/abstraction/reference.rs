@@ -26,7 +26,7 @@ pub(super) fn build(
     progress: &dyn Progress,
 ) -> Result<Rows, MemoryError> {
     let grid: &Grid = problem.grid();
-    let landings = Landings::new(&problem.noise().samples, placements, None);
+    let landings = Landings::new(&problem.noise().samples, placements);
     // 4 bytes of successor and 16 of bounds per entry, twice while chunks are put together.
     require_memory(
         "the rows of the model",
@@ -41,13 +41,13 @@ pub(super) fn build(
                 let (landing, _) = landings.of(targets, target, grid, origin);
                 let mut inside = 0;
                 let table = landing.table();
-                for_each_cell(table, table, origin, grid, |_, i| inside += landing.counts()[i].certain);
+                for_each_cell(table, table, origin, grid, |_, i| inside += landing.counts()[i].certain[0]);
                 inside
             },
         )
         .collect();
     let of_cells = landings.distinct_counts(targets, grid);
-    let of_cells = CountTable::new(of_cells.iter().map(|count| count.certain), |k| intervals.of_cell(k));
+    let of_cells = CountTable::new(of_cells.iter().map(|count| count.certain[0]), |k| intervals.of_cell(k));
     let of_outside = CountTable::new(inside.iter().copied(), |k| intervals.of_outside(k));
     Ok(super::row_tasks::build_rows(targets.len(), progress, |target, rows| {
         let mut origin = vec![0; grid.dimension()];
@@ -56,7 +56,7 @@ pub(super) fn build(
         rows.push_entry(OUTSIDE, lower, upper);
         let table = landing.table();
         for_each_cell(table, table, &origin, grid, |cell, i| {
-            let hits = landing.counts()[i].certain;
+            let hits = landing.counts()[i].certain[0];
             if hits > 0 {
                 let (lower, upper) = of_cells.get(hits);
                 rows.push_entry(states.of_cell(cell), lower, upper);

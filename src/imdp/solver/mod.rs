@@ -26,6 +26,7 @@ mod expectation;
 mod extrapolate;
 mod graph;
 mod guess;
+mod history;
 mod options;
 mod policy;
 mod prune;
