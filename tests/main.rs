@@ -17,6 +17,7 @@ mod faults;
 mod formats;
 mod guarantee;
 mod import;
+mod inputs;
 mod intervals;
 mod native;
 mod noise_masses;

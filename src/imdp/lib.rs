@@ -15,9 +15,11 @@
 //! Nothing here knows of control. The solver fills in certificates, the checker reads them, and neither
 //! knows the other.
 
+pub mod automaton;
 pub mod certificate;
 pub mod compare;
 pub mod engines;
+pub mod evaluation;
 mod exact;
 pub mod files;
 pub mod formats;

@@ -200,7 +200,8 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
         phases.push(("files", writing.elapsed()));
     }
     for result in &mut results {
-        let (guarantee, bounds) = (&abstraction.guarantee, [result.lower, result.upper]);
+        let (guarantee, bounds) =
+            (&abstraction.guarantee, [result.lower.unwrap_or(0.0), result.upper.unwrap_or(1.0)]);
         let claim = guarantee.claim(&abstraction.property, &abstraction.model, bounds);
         result.guarantee = Some(claim.map_err(|error| CliError::Failure(error.to_string()))?);
     }
@@ -219,7 +220,7 @@ fn solve(
     let answer = LimitArguments::default()
         .with_options(bars, |options| Answer::new(model, property, &solution_options(problem, options)));
     let answer = answer.map_err(|error| CliError::Input(format!("{property}: {error}")))?;
-    let result = PropertyResult::new(property, &answer, start.elapsed());
+    let result = PropertyResult::new(property, &answer, model, start.elapsed());
     Ok((answer, result))
 }
 
@@ -240,7 +241,7 @@ fn prune(abstraction: &mut Abstraction, bars: &Bars) -> Result<(PropertyResult, 
     let limits = LimitArguments::of_epsilon(PRUNING_EPSILON);
     let pruned = limits.with_options(bars, |options| Pruned::new(&abstraction.model, property, options));
     let pruned = pruned.map_err(|error| CliError::Failure(format!("--prune: {property}: {error}")))?;
-    let result = PropertyResult::new(property, &pruned.after, start.elapsed());
+    let result = PropertyResult::new(property, &pruned.after, &pruned.model, start.elapsed());
     let report = PruningReport::new(property, abstraction.model.size(), &pruned);
     abstraction.model = pruned.model;
     Ok((result, report))
