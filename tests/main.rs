@@ -36,5 +36,6 @@ mod solution;
 mod solver;
 mod soundness;
 mod steering;
+mod systems;
 mod values;
 mod verify;
