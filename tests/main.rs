@@ -35,6 +35,8 @@ mod riccati;
 mod simulate;
 mod solution;
 mod solver;
+mod soundness;
 mod steering;
+mod systems;
 mod values;
 mod verify;
