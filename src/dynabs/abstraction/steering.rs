@@ -28,6 +28,11 @@ impl Steering {
         Ok(Self { targets, law, extent, constraints })
     }
 
+    /// How many ranges of actions are enabled in some cells.
+    pub(super) fn ranges(&self, problem: &Problem, cells: &[CellId]) -> usize {
+        enabled_actions(problem.grid(), cells, &self.targets, &self.constraints, &()).ranges.len()
+    }
+
     /// The actions of all ordinary cells, in the order of the cells.
     pub(super) fn enabled(
         &self,

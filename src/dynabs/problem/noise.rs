@@ -3,6 +3,7 @@
 use super::values::{count, symmetric, vector};
 use crate::Diagnostic;
 use crate::linear_algebra::Definiteness;
+use crate::memory::Need;
 use crate::noise::{CsvError, Gaussian, NoiseSamples, parse_csv};
 use crate::system::LinearSystem;
 use imdp::numeric::to_f64;
@@ -194,6 +195,10 @@ impl DrawnNoise {
             let expected = format!("between 1 and {MAX_SAMPLES} samples");
             return Err(Diagnostic::at("/noise/count", self.count.to_string(), expected));
         }
+        // What is drawn, and as much again when it is grouped.
+        let numbers = self.count * (d * system.state_dimension()) as u64;
+        let need = Need { what: "samples", bytes: 24 * numbers, field: "/noise/count" };
+        need.check().map_err(|error| Diagnostic::from(&error))?;
         let samples = gaussian.sample(self.count as usize * d, self.seed).grouped(system, d);
         Ok(SampledNoise {
             samples,

@@ -3,6 +3,7 @@
 use super::problem::Objective;
 use super::regions::{RegionBox, regions, widths};
 use crate::Diagnostic;
+use crate::memory::Need;
 use crate::partition::{CellKind, CellLabels, Grid, NearMiss, Region, first_overlap, near_misses};
 use imdp::numeric::{shortest_decimal, to_f64};
 use imdp::property::Probability;
@@ -91,6 +92,7 @@ impl CheckedTask {
             return Err(Diagnostic::at(format!("/task/goal/{i}"), found, expected)
                 .remedy("Cut the overlap out of one of the two; boxes may touch."));
         }
+        Need::of_cells(grid).check().map_err(|error| Diagnostic::from(&error))?;
         let labels = CellLabels::new(grid, &goal, &unsafe_);
         if labels.count(CellKind::Goal) == 0 {
             let expected = format!("at least one whole cell inside it; cells measure {}", widths(grid));

@@ -5,7 +5,7 @@ use super::names::NameError;
 use super::prism::{MAX_COUNT, TraWriter, check_names, write_lab, write_sta};
 use super::umb::{Compression, UmbWriter};
 use super::{Format, native};
-use crate::model::IntervalMdp;
+use crate::model::{IntervalMdp, MemoryError, require_memory};
 use crate::progress::Progress;
 use std::io::{self, Write};
 
@@ -43,7 +43,13 @@ pub enum WriteError {
         /// The number of transitions.
         transitions: u64,
     },
+    /// The text of the rows, which is made once, does not fit into memory.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
 }
+
+/// What an entry of a row takes as text, or as the arrays of an archive.
+const ENTRY_BYTES: u64 = 64;
 
 impl<'a> ModelWriter<'a> {
     /// Prepares to write `model`; `compression` is that of UMB.
@@ -51,6 +57,10 @@ impl<'a> ModelWriter<'a> {
     /// # Errors
     /// [`WriteError`] if the format cannot express the model.
     pub fn new(model: &'a IntervalMdp, format: Format, compression: Compression) -> Result<Self, WriteError> {
+        if format != Format::Native {
+            let bytes = ENTRY_BYTES * model.rows().num_entries() as u64;
+            require_memory(format!("writing the rows as {}", format.extension()), bytes)?;
+        }
         let format = match format {
             Format::Native => FormatWriter::Native,
             Format::Drn => FormatWriter::Drn(DrnWriter::new(model)?),

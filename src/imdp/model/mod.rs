@@ -15,7 +15,7 @@ pub use choices::{Choices, ChoicesBuilder, RowRange};
 pub use fixedbitset::FixedBitSet as StateSet;
 pub use interval_mdp::{ActionNames, ImdpError, IntervalMdp, ModelKind, Parts, Size};
 pub use labels::{Labels, StateVariable, StateVariables, VariableValues};
-pub use memory::{MemoryError, MemoryLimit, available_memory, require_memory};
+pub use memory::{GrowingMemory, MemoryError, MemoryLimit, available_memory, require_memory};
 pub use restrict::restrict;
 pub use rows::{Row, RowError, Rows};
 

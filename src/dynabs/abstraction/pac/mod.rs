@@ -41,6 +41,7 @@ mod ground;
 mod levels;
 
 use super::AbstractionError;
+use super::footprint::need_of_rows;
 use super::landing::{RegionCounts, Spread};
 use super::landings::{Landings, Placements, for_each_cell, is_inside};
 use super::outcomes::{Outcome, Outcomes};
@@ -52,7 +53,7 @@ use crate::problem::Problem;
 use crate::statistics::{ConfidenceBudget, upper_bound};
 use bounds::{BoundTable, DIGITS, Interval};
 use ground::{Ground, cell_events, intervals};
-use imdp::model::{Rows, require_memory};
+use imdp::model::Rows;
 use imdp::numeric::{Rational, round_decimal_down, round_decimal_up, to_f64};
 use imdp::progress::Progress;
 use imdp::solver::worst_expectations;
@@ -112,10 +113,8 @@ impl<'a> PacRows<'a> {
             return Err(AbstractionError::TooFewSamples { samples: number, needed, unseen: of_largest });
         }
         let landings = Landings::new(samples, placements, Some(windows));
-        // 4 bytes of successor and 16 of bounds per entry; one model to choose windows by, another one, and the
-        // pieces that it is put together from.
         let entries = targets.len() as u64 * landings.row_length(grid) as u64;
-        require_memory("the rows of the model", entries * 20 * 3)?;
+        need_of_rows(problem, entries).check()?;
 
         let counts = |origin: &mut Vec<i32>, target| {
             let (landing, _) = landings.of(targets, target, grid, origin);
