@@ -5,6 +5,7 @@ use dynabs::abstraction::compile;
 use dynabs::controller::Controller;
 use dynabs::report::{CROSS_CHECK, CrossChecks, Material, MaterialOptions, Picture, page, pictures};
 use dynabs::run::{Manifest, Run, WriteOptions, write_run};
+use imdp::formats::sha256_hex;
 use imdp::solver::{Answer, SolverOptions};
 use serde_json::Value;
 use std::fs;
@@ -38,7 +39,7 @@ fn reported(directory: &Path, times: Vec<(&'static str, Duration)>) -> Reported 
     let solver = SolverOptions { policy: true, ..SolverOptions::default() };
     let answer = run.solve(&solver).unwrap();
     let controller = Controller::new(&run.problem, &run.abstraction, &answer).unwrap();
-    let cross_checks = CrossChecks::read(directory).unwrap();
+    let cross_checks = CrossChecks::read(directory, &run.manifest).unwrap();
     let options = MaterialOptions { seed: 1, runs: 300, drawn: 12, times, cross_checks };
     let material = Material::new(&run, &answer, &controller, options, &solver, &()).unwrap();
     let (page, pictures) = (page(&material).unwrap(), pictures(&material));
@@ -290,7 +291,9 @@ fn the_tool_and_its_mistakes() {
     assert_well_formed(&fs::read_to_string(scratch.path().join("svg/value.svg")).unwrap());
 
     // What other engines said is shown, whatever they are called.
-    let findings = serde_json::json!({"findings": [{
+    let model = fs::read(directory.join("model.dynabs")).unwrap();
+    let model = serde_json::json!([{"kind": "dynabs", "sha256": sha256_hex(&model)}]);
+    let findings = serde_json::json!({"model": model, "findings": [{
         "engine": "PRISM", "version": "<4>", "property": "Pmaxmin=? [ !\"failed\" U<=6 \"reached\" ]",
         "value": [0.99, 0.99], "ours": [0.99, 0.99], "difference": 1.5e-14, "seconds": 1.25, "agreement": "agrees",
     }]});

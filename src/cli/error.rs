@@ -1,9 +1,12 @@
 //! Errors as the tools report them, and their exit codes.
 
+use super::warn;
 use dynabs::Diagnostic;
 use dynabs::abstraction::AbstractionError;
 use dynabs::run::RunDirectoryError;
-use std::io::{self, Write};
+use imdp::files::{is_fault_of_input, is_interruption};
+use std::io;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Why a tool stopped.
@@ -18,9 +21,6 @@ pub enum CliError {
     /// The user ended it before there was anything to say (exit code 3).
     #[error("interrupted")]
     Interrupted,
-    /// Nobody reads the output any more; nothing to report.
-    #[error("the output was closed")]
-    OutputClosed,
 }
 
 impl From<Diagnostic> for CliError {
@@ -32,13 +32,30 @@ impl From<Diagnostic> for CliError {
 impl From<RunDirectoryError> for CliError {
     fn from(error: RunDirectoryError) -> Self {
         match error {
-            RunDirectoryError::Io { .. } => Self::Failure(error.to_string()),
+            RunDirectoryError::Io { error, .. } if is_interruption(&error) => Self::Interrupted,
+            RunDirectoryError::Io { .. } | RunDirectoryError::Raced { .. } => {
+                Self::Failure(error.to_string())
+            }
             _ => Self::Input(error.to_string()),
         }
     }
 }
 
 impl CliError {
+    /// A file that cannot be read: the wrong one, or the system failed.
+    pub fn reading(path: &Path, error: &io::Error) -> Self {
+        let text = format!("{}: {error}", path.display());
+        if is_fault_of_input(error) { Self::Input(text) } else { Self::Failure(text) }
+    }
+
+    /// A file that cannot be written.
+    pub fn writing(path: &Path, error: &io::Error) -> Self {
+        if is_interruption(error) {
+            return Self::Interrupted;
+        }
+        Self::Failure(format!("{}: {error}", path.display()))
+    }
+
     /// An abstraction that failed, about the model file `file`.
     pub fn of_abstraction(error: &AbstractionError, file: &str) -> Self {
         let diagnostic = match error {
@@ -85,10 +102,8 @@ impl CliError {
 pub fn exit_with(outcome: Result<ExitCode, CliError>) -> ExitCode {
     match outcome {
         Ok(code) => code,
-        Err(CliError::OutputClosed) => ExitCode::SUCCESS,
         Err(error) => {
-            // If stderr is closed too, the exit code has to do.
-            let _ = writeln!(io::stderr(), "error: {error}");
+            warn(&format!("error: {error}\n"));
             ExitCode::from(match error {
                 CliError::Input(_) => 2,
                 CliError::Interrupted => 3,

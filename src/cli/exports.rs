@@ -1,7 +1,7 @@
 //! Values and policies as files, in PRISM's forms.
 
-use super::{CliError, StagedFiles};
-use imdp::certificate::Certificate;
+use super::CliError;
+use imdp::files::Outputs;
 use imdp::model::{IntervalMdp, StateId};
 use imdp::property::Verdict;
 use imdp::solver::{Answer, Policy};
@@ -14,22 +14,20 @@ use std::path::Path;
 /// The form of PRISM's `-exportvector`.
 ///
 /// # Errors
-/// [`CliError::Failure`] if writing fails.
-pub(super) fn write_values(path: &Path, model: &IntervalMdp, answer: &Answer) -> Result<(), CliError> {
-    replace(path, |out| {
-        for state in 0..model.num_states() as StateId {
-            match answer.verdict_of(state) {
-                None => {
-                    let value = answer.values.lower[state as usize];
-                    writeln!(out, "{}", imdp::numeric::shortest_decimal(value))?;
-                }
-                Some(Verdict::Holds) => writeln!(out, "true")?,
-                Some(Verdict::Fails) => writeln!(out, "false")?,
-                Some(Verdict::Unknown) => writeln!(out, "undecided")?,
+/// What writing gives.
+pub(super) fn write_values(model: &IntervalMdp, answer: &Answer, out: &mut impl Write) -> io::Result<()> {
+    for state in 0..model.num_states() as StateId {
+        match answer.verdict_of(state) {
+            None => {
+                let value = answer.values.lower[state as usize];
+                writeln!(out, "{}", imdp::numeric::shortest_decimal(value))?;
             }
+            Some(Verdict::Holds) => writeln!(out, "true")?,
+            Some(Verdict::Fails) => writeln!(out, "false")?,
+            Some(Verdict::Unknown) => writeln!(out, "undecided")?,
         }
-        Ok(())
-    })
+    }
+    Ok(())
 }
 
 /// Writes `state=action`, or `state,step=action` for a policy that changes over time.
@@ -38,40 +36,30 @@ pub(super) fn write_values(path: &Path, model: &IntervalMdp, answer: &Answer) ->
 /// without a name is given by its index.
 ///
 /// # Errors
-/// [`CliError::Failure`] if writing fails.
-pub(super) fn write_policy(path: &Path, model: &IntervalMdp, policy: &Policy) -> Result<(), CliError> {
+/// What writing gives.
+pub(super) fn write_policy(model: &IntervalMdp, policy: &Policy, out: &mut impl Write) -> io::Result<()> {
     let first_choices = first_choices(model);
-    replace(path, |out| {
-        for state in 0..model.num_states() as StateId {
-            let name = |choice: u32| {
-                let row = model.choices().row_of_choice(state, choice);
-                action_name(model, first_choices[state as usize] + u64::from(choice), row, choice)
-            };
-            match policy.horizon() {
-                None => {
-                    if let Some(choice) = policy.choice(state, 0) {
-                        writeln!(out, "{state}={}", name(choice))?;
-                    }
+    for state in 0..model.num_states() as StateId {
+        let name = |choice: u32| {
+            let row = model.choices().row_of_choice(state, choice);
+            action_name(model, first_choices[state as usize] + u64::from(choice), row, choice)
+        };
+        match policy.horizon() {
+            None => {
+                if let Some(choice) = policy.choice(state, 0) {
+                    writeln!(out, "{state}={}", name(choice))?;
                 }
-                Some(horizon) => {
-                    for step in 0..horizon {
-                        if let Some(choice) = policy.choice(state, step) {
-                            writeln!(out, "{state},{step}={}", name(choice))?;
-                        }
+            }
+            Some(horizon) => {
+                for step in 0..horizon {
+                    if let Some(choice) = policy.choice(state, step) {
+                        writeln!(out, "{state},{step}={}", name(choice))?;
                     }
                 }
             }
         }
-        Ok(())
-    })
-}
-
-/// Writes a certificate.
-///
-/// # Errors
-/// [`CliError::Failure`] if writing fails.
-pub(super) fn write_certificate(path: &Path, certificate: &Certificate) -> Result<(), CliError> {
-    replace(path, |out| imdp::certificate::write(certificate, out))
+    }
+    Ok(())
 }
 
 /// Per state, the number of choices of the states before it.
@@ -94,9 +82,9 @@ fn action_name(model: &IntervalMdp, index: u64, row: Option<u32>, choice: u32) -
 /// Writes a file beside its place and renames it: nobody ever sees half of it.
 pub(super) fn replace(
     path: &Path,
-    fill: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
+    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<(), CliError> {
-    let mut files = StagedFiles::default();
-    files.write(path, fill)?;
-    files.commit()
+    let mut files = Outputs::default();
+    let written = files.write(path, fill).and_then(|()| files.commit());
+    written.map_err(|error| CliError::writing(path, &error))
 }

@@ -2,14 +2,14 @@
 
 use super::{Bars, CliError};
 use dynabs::guarantee::{Claim, Gap, Guarantee};
-use dynabs::run::{Manifest, NATIVE_MODEL};
+use dynabs::run::{Manifest, NATIVE_MODEL, RunFiles};
 use imdp::certificate::ModelFile;
+use imdp::files::{Snapshot, steady};
 use imdp::formats::Format;
 use imdp::formats::sha256_of_file;
 use imdp::model::IntervalMdp;
 use imdp::progress::Progress;
 use imdp::property::{Property, PropertyError};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A model and where it was found.
@@ -20,6 +20,8 @@ pub(super) struct LoadedModel {
     pub(super) properties: PathBuf,
     /// The files it was read from.
     files: Vec<PathBuf>,
+    /// Which files these were, with that of the properties.
+    read: Snapshot,
     /// What was promised of the run that it is of.
     promise: Option<Promise>,
 }
@@ -32,6 +34,15 @@ struct Promise {
 }
 
 impl LoadedModel {
+    /// Fails if another process has replaced the files since: what is read now belongs to another model.
+    pub(super) fn require_unchanged(&self) -> Result<(), CliError> {
+        if snapshot(&self.files, &self.properties) == self.read {
+            return Ok(());
+        }
+        let path = self.files.first().map(|path| path.display().to_string()).unwrap_or_default();
+        Err(CliError::Failure(format!("{path}: found other files than at the start\n  Run it again.")))
+    }
+
     /// What bounds on the value of a property claim of the system; none for models that are of no run.
     ///
     /// # Errors
@@ -53,6 +64,7 @@ impl LoadedModel {
     /// # Errors
     /// [`CliError::Failure`] if they cannot be read again.
     pub(super) fn digests(&self) -> Result<Vec<ModelFile>, CliError> {
+        self.require_unchanged()?;
         let digest = |path: &PathBuf| {
             let kind = path.extension().unwrap_or_default().to_string_lossy().into_owned();
             match sha256_of_file(path) {
@@ -69,25 +81,53 @@ impl LoadedModel {
 /// # Errors
 /// [`CliError::Input`] if nothing usable is there or it is malformed.
 pub(super) fn load(path: &Path, explicit: bool, bars: &Bars) -> Result<LoadedModel, CliError> {
-    const EXPECTED: &str = "a directory written by dynabs-compile or a .tra, .drn, .umb or .dynabs file";
+    const EXPECTED: &str = "a directory written by dynabs-compile or a .tra, .pexp, .drn, .umb, .txt (bmdp-tool), .nc (IntervalMDP.jl) or .dynabs file";
     let shown = path.display();
     if path.is_dir() {
-        return load_directory(path, explicit, bars);
+        return steady(&[path.to_owned()], || load_directory(path, explicit, bars));
     }
-    if !path.exists() {
+    let format = Format::of_path(path);
+    if !path.exists() && format != Some(Format::Prism) {
         return Err(CliError::Input(format!("{shown}: found nothing; expected {EXPECTED}")));
     }
-    match Format::of_path(path) {
+    match format {
         Some(format) => load_file(path, format, bars),
-        None => Err(CliError::Input(format!("{shown}: found a file of another kind; expected {EXPECTED}"))),
+        None => Err(CliError::Input(format!(
+            "{shown}: found a file of another kind; expected {EXPECTED}{}",
+            export_command(path)
+        ))),
+    }
+}
+
+/// How to make files of a model in the language of PRISM or Storm; nothing for other files.
+fn export_command(path: &Path) -> String {
+    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    match extension {
+        "prism" | "nm" | "pm" | "sm" | "mdp" | "dtmc" => format!(
+            "\n  This looks like a model in PRISM's language: `prism {} -exportmodel {stem}.all` writes {stem}.tra and what \
+             belongs to it (add -const NAME=VALUE for its constants).",
+            path.display()
+        ),
+        "jani" => format!(
+            "\n  This looks like a JANI model: `storm --jani {} --exportbuild {stem}.drn` writes {stem}.drn.",
+            path.display()
+        ),
+        _ => String::new(),
     }
 }
 
 fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<LoadedModel, CliError> {
+    let found = RunFiles::find(directory)?;
+    // In a directory without a manifest there is nothing to hold its files against.
+    let verify = |names: &[&str]| {
+        let there = names.iter().filter(|name| directory.join(name).exists());
+        found.iter().try_for_each(|run| there.clone().try_for_each(|name| run.verified(name).map(drop)))
+    };
     let (native, tra) = (directory.join(NATIVE_MODEL), directory.join("model.tra"));
-    let manifest = fs::read(directory.join("manifest.json")).ok();
-    let manifest = manifest.and_then(|bytes| serde_json::from_slice::<Manifest>(&bytes).ok());
+    let manifest = found.as_ref().and_then(|run| run.manifest().ok());
     if native.exists() && !explicit {
+        verify(&[NATIVE_MODEL, "model.props"])?;
         let mut loaded = load_file(&native, Format::Native, bars)?;
         loaded.promise = promise(manifest.as_ref(), &loaded, false)?;
         return Ok(loaded);
@@ -100,6 +140,7 @@ fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<Loade
             directory.display()
         )));
     }
+    verify(&["model.tra", "model.sta", "model.lab", "model.props"])?;
     let mut loaded = load_file(&tra, Format::Prism, bars)?;
     let raised = |manifest: &&Manifest| {
         loaded.model.rows().iter().any(|row| row.lower.contains(&manifest.prism_lower_bound))
@@ -161,18 +202,16 @@ fn load_file(path: &Path, format: Format, bars: &Bars) -> Result<LoadedModel, Cl
         false => CliError::Input(error.to_string()),
     })?;
     let warnings = imported.warnings.iter().map(ToString::to_string).collect();
-    let files = match format {
-        Format::Prism => {
-            let files = ["tra", "sta", "lab"].map(|extension| path.with_extension(extension));
-            files.into_iter().filter(|path| path.exists()).collect()
-        }
-        _ => vec![path.to_owned()],
-    };
-    Ok(LoadedModel {
-        model: imported.model,
-        warnings,
-        properties: path.with_extension("props"),
-        files,
-        promise: None,
-    })
+    let files = format.files(path);
+    // `m.tra.gz` and `m.tra,sta,lab` have the properties of `m.tra`.
+    let transitions = files.first().map_or(path, PathBuf::as_path);
+    let packed = matches!(transitions.extension().and_then(|e| e.to_str()), Some("gz" | "xz"));
+    let unpacked = if packed { transitions.with_extension("") } else { transitions.to_owned() };
+    let properties = unpacked.with_extension("props");
+    let read = snapshot(&files, &properties);
+    Ok(LoadedModel { model: imported.model, warnings, properties, files, read, promise: None })
+}
+
+fn snapshot(files: &[PathBuf], properties: &Path) -> Snapshot {
+    Snapshot::of(&[files, &[properties.to_owned()]].concat())
 }

@@ -1,18 +1,51 @@
-//! Printing that does not panic when nobody listens.
+//! What goes to the terminal: nothing in it moves the cursor, and nothing panics when nobody listens.
 
 use super::CliError;
+use std::borrow::Cow;
+use std::fmt::Write as _;
 use std::io::{self, Write};
 
-/// Writes text to stdout.
+/// Writes text to stdout, in which control characters are spelled out as in JSON.
+///
+/// A reader that has gone away is no error: what the exit code says stays true.
 ///
 /// # Errors
-/// [`CliError::OutputClosed`] if the reader is gone, [`CliError::Failure`] if writing fails otherwise.
+/// [`CliError::Failure`] if writing fails.
 pub fn print(text: &str) -> Result<(), CliError> {
     let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|error| match error.kind() {
-        io::ErrorKind::BrokenPipe => CliError::OutputClosed,
-        _ => CliError::Failure(format!("stdout: {error}")),
-    })
+    match out.write_all(harmless(text).as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(CliError::Failure(format!("stdout: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes text to stderr in the same way; if that is closed there is nobody to tell.
+pub fn warn(text: &str) {
+    let _ = io::stderr().write_all(harmless(text).as_bytes());
+}
+
+/// The text with control characters, and those that turn the direction of writing, spelled out.
+fn harmless(text: &str) -> Cow<'_, str> {
+    let is_harmless = |c: char| match c {
+        '\n' | '\t' => true,
+        '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => false,
+        _ => !c.is_control(),
+    };
+    if text.chars().all(is_harmless) {
+        return text.into();
+    }
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_harmless(c) {
+            shown.push(c);
+        } else {
+            // Writing to a string cannot fail.
+            let _ = write!(shown, "\\u{:04x}", u32::from(c));
+        }
+    }
+    shown.into()
 }
 
 /// A number with commas between groups of three digits.
@@ -30,13 +63,25 @@ pub fn thousands(n: u64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::thousands;
+    use super::*;
 
     #[test]
     fn groups_of_three() {
         let numbers = [(0, "0"), (999, "999"), (1_000, "1,000"), (39_773_745, "39,773,745")];
         for (n, text) in numbers {
             assert_eq!(thousands(n), text);
+        }
+    }
+
+    #[test]
+    fn nothing_moves_the_cursor() {
+        let texts = [
+            ("α ≥ 0\n\tplain", "α ≥ 0\n\tplain"),
+            ("\u{1b}[31mred\r", "\\u001b[31mred\\u000d"),
+            ("\u{7f}\u{9b}31m\u{202e}txt", "\\u007f\\u009b31m\\u202etxt"),
+        ];
+        for (text, shown) in texts {
+            assert_eq!(harmless(text), shown);
         }
     }
 }

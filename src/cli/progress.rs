@@ -1,6 +1,6 @@
 //! Progress bars for people who wait.
 
-use super::CliError;
+use super::signals;
 use imdp::progress::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -46,17 +46,8 @@ impl Bars {
     }
 
     /// Takes Ctrl-C from now on: the first one asks the work to end cleanly, the second one ends the program.
-    ///
-    /// # Errors
-    /// [`CliError::Failure`] if the system does not let us.
-    pub fn catch_interrupts(self: &Arc<Self>) -> Result<(), CliError> {
-        let bars = Arc::clone(self);
-        let handler = move || {
-            if bars.interrupt.swap(true, Ordering::Relaxed) {
-                std::process::exit(3);
-            }
-        };
-        ctrlc::set_handler(handler).map_err(|error| CliError::Failure(format!("Ctrl-C: {error}")))
+    pub fn catch_interrupts(self: &Arc<Self>) {
+        signals::listen(self);
     }
 
     /// The flag that Ctrl-C sets.

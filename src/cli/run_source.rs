@@ -3,6 +3,7 @@
 use super::{Bars, CliError};
 use dynabs::controller::{Controller, ControllerError};
 use dynabs::run::{OpenError, Run};
+use imdp::files::is_fault_of_input;
 use imdp::progress::Progress;
 use imdp::solver::{Answer, SolverOptions, Status};
 use std::path::Path;
@@ -11,7 +12,7 @@ use std::sync::Arc;
 impl From<OpenError> for CliError {
     fn from(error: OpenError) -> Self {
         match error {
-            OpenError::Io { .. } => Self::Failure(error.to_string()),
+            OpenError::Io { error: ref io, .. } if !is_fault_of_input(io) => Self::Failure(error.to_string()),
             _ => Self::Input(error.to_string()),
         }
     }
@@ -38,7 +39,7 @@ pub(super) struct Refined {
 /// [`CliError`] if the directory is no run, or if it was interrupted.
 pub(super) fn refine(directory: &Path, bars: &Arc<Bars>) -> Result<Refined, CliError> {
     let run = Run::open(directory, &**bars)?;
-    bars.catch_interrupts()?;
+    bars.catch_interrupts();
     let progress =
         |iteration, gap: f64| bars.note(|| format!("iteration {iteration}, bounds {gap:.1e} apart"));
     let options = SolverOptions {

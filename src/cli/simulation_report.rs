@@ -1,7 +1,7 @@
 //! What a simulation showed, for people and programs.
 
 use super::simulation_noise::ChosenNoise;
-use super::{CliError, thousands};
+use super::{CliError, thousands, warn};
 use dynabs::controller::{Controller, Frequency, Tally};
 use dynabs::guarantee::lower_bound_text;
 use dynabs::run::Run;
@@ -9,7 +9,6 @@ use imdp::numeric::{Rational, from_decimal, shortest_decimal, to_f64};
 use num_traits::One;
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// A simulation against the promise.
@@ -142,15 +141,13 @@ impl Report {
                 }
                 None => "reference mode promises nothing",
             };
-            // If stderr is closed there is nobody to warn.
-            let _ = writeln!(
-                io::stderr(),
+            warn(&format!(
                 "warning: the simulation contradicts the promise: at least {} against at most {:.6} with confidence {}\n  \
-                 Either {meaning}.",
+                 Either {meaning}.\n",
                 lower_bound_text(self.bound),
                 self.satisfied.upper,
                 self.satisfied.confidence
-            );
+            ));
         }
     }
 

@@ -9,6 +9,7 @@
 //! | [`certificate`], [`verify`] | what proves a result, and the checker in exact arithmetic |
 //! | [`compare`] | what differs between two runs |
 //! | [`engines`] | PRISM and Storm, asked the same questions |
+//! | [`files`] | what may be read, and output that appears whole or not at all |
 //!
 //! Nothing here knows of control. The solver fills in certificates, the checker reads them, and neither
 //! knows the other.
@@ -17,6 +18,7 @@ pub mod certificate;
 pub mod compare;
 pub mod engines;
 mod exact;
+pub mod files;
 pub mod formats;
 pub mod model;
 pub mod numeric;

@@ -83,7 +83,7 @@ fn nothing_is_replaced_by_accident_and_mistakes_are_named() {
         assert_eq!(code, 2, "{text}");
         words.iter().for_each(|word| assert!(text.contains(word), "{text}, without {word}"));
     };
-    refused(&[input, &at("a.txt")], &["a.txt", ".umb", "--to"]);
+    refused(&[input, &at("a.text")], &["a.text", ".umb", "--to"]);
     refused(&["nowhere.umb", &at("a.drn")], &["nowhere.umb", "found nothing"]);
     succeed("dynabs-check", &["convert", input, &at("a.txt"), "--to", "drn"]);
     succeed("dynabs-check", &["convert", input, &at("b.tra")]);

@@ -61,14 +61,8 @@ fn mistakes_are_refused_with_their_place() {
         ("@type: MDP", "@type: CTMC", "4:8", &["MDP or DTMC", "CTMC"]),
         ("@type: MDP\n", "@type: MDP\n@type: MDP\n", "5:1", &["@type once"]),
         ("double-interval", "parametric", "5:14", &["double-interval", "parametric"]),
-        ("@value_type: double-interval\n", "", "13:1", &["@value_type"]),
         ("@parameters\n\n", "@parameters\np q\n", "7:1", &["parameters are not supported", "`p`"]),
-        (
-            "@reward_models\n\n",
-            "@reward_models\ncost\n",
-            "9:1",
-            &["reward models are not supported", "`cost`"],
-        ),
+        ("@reward_models\n\n", "@reward_models\ncost cost\n", "9:1", &["every reward model once"]),
         ("@nr_states\n5", "@placeholders\n$x : 1\n@nr_states\n5", "10:1", &["@nr_states", "`@placeholders`"]),
         ("@nr_states\n5", "@nr_states\n0", "11:1", &["between 1 and"]),
         ("@nr_states\n5", "@nr_states\n6", "42:1", &["6 states", "found 5"]),
@@ -78,8 +72,8 @@ fn mistakes_are_refused_with_their_place() {
         ("@model", "@modal", "14:1", &["@model"]),
         ("state 1 goal", "state 3 goal", "22:7", &["state 1", "`3`"]),
         ("state 1 goal", "state 1 goal goal", "22:14", &["every label of a state once"]),
-        ("state 1 goal", "state 1 [3] goal", "22:9", &["no rewards"]),
-        ("action b\n", "action b [3]\n", "20:11", &["no rewards"]),
+        ("state 1 goal", "state 1 [3] goal", "22:9", &["0 rewards, as the header says"]),
+        ("action b\n", "action b [3]\n", "20:11", &["0 rewards, as the header says"]),
         ("1 : [0.2, 0.5]", "5 : [0.2, 0.5]", "18:3", &["destination below 5"]),
         ("1 : [0.2, 0.5]", "2 : [0.2, 0.5]", "19:1", &["every destination of a choice once", "`2`"]),
         ("1 : [0.2, 0.5]", "1 : [0.6, 0.5]", "18:13", &["at least 0.6", "`0.5`"]),
@@ -88,8 +82,6 @@ fn mistakes_are_refused_with_their_place() {
         ("1 : [0.2, 0.5]", "1 : (0.2, 0.5]", "18:7", &["probability"]),
         ("1 : [0.2, 0.5]", "1 : [0.2, 0.1999]", "18:13", &["at least 0.2"]),
         ("1 : [0.2, 0.5]", "1 : [0.1, 0.1]", "17:1", &["sum to at least 1", "0.9"]),
-        ("2 : [1, 1]", "2 : 1/1", "21:8", &["end of the line"]),
-        ("1 : [0.2, 0.5]", "1: [0.2, 0.5]", "18:4", &["` : `"]),
         ("state 0 init", "state 0 unit", "42:1", &["label init"]),
         ("//! values 3 true\n", "", "33:1", &["every state"]),
         ("//! values 3 true", "//! values 3 yes", "27:14", &["`true` or `false`"]),
@@ -109,6 +101,28 @@ fn mistakes_are_refused_with_their_place() {
             assert!(message.contains(word), "{new:?}: {message}, without {word}");
         }
     }
+}
+
+#[test]
+fn other_peoples_files_are_read() {
+    // PRISM's types, rewards of two models (one of intervals), Storm's values of variables, fractions, blanks.
+    let text = "@type: IDTMC\n@parameters\n\n@reward_models\ncost  steps \n@nr_states\n3\n@nr_choices\n3\n@model\n\
+                state 0 [1/2, [0, 1]] init\n//[x=-1\t& !b]\n  action 0 [2, [1,1]]\n 1: [1/3,2/3] \n\t2 : [1/3 , 2/3]\n\
+                state 1 [0, 0] goal \n//[x=2\t& b]\n\t1 : 1\nstate 2 [.5, 1] \n//[x=0\t& b]\n\t\t2 :1\n";
+    let Imported { model, warnings, .. } = import_text(text.as_bytes()).unwrap();
+    assert_eq!(model.kind(), ModelKind::Idtmc);
+    let cost = model.rewards().get("cost").unwrap();
+    assert_eq!(
+        (cost.of_state(0), cost.of_state(2), cost.of_choice(0), cost.of_choice(1)),
+        (0.5, 0.5, 2.0, 0.0)
+    );
+    assert!(model.rewards().get("steps").is_none());
+    assert!(warnings.iter().any(|warning| warning.to_string().contains("steps")), "{warnings:?}");
+    assert_eq!(model.variables().get("x").unwrap().values, VariableValues::Int(vec![-1, 2, 0]));
+    assert!(
+        matches!(&model.variables().get("b").unwrap().values, VariableValues::Bool(set) if !set.contains(0))
+    );
+    assert_eq!(model.rows().row(0).lower, [1.0 / 3.0; 2]);
 }
 
 #[test]

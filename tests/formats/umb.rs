@@ -122,11 +122,12 @@ fn mistakes_are_refused_with_their_place() {
         (
             |m| {
                 index(m, |i| {
-                    i["annotations"]["rewards"] = json!({ "cost": { "type": { "type": "double" } } })
+                    i["annotations"]["rewards"] =
+                        json!({ "cost": { "applies-to": ["states"], "type": { "type": "double" } } })
                 })
             },
-            "index.json",
-            &["no rewards", "cost"],
+            "annotations/rewards/cost/states/values.bin",
+            &["rewards", "no such member"],
         ),
         (
             |m| index(m, |i| i["annotations"]["aps"]["bad"]["alias"] = json!("goal")),

@@ -8,7 +8,7 @@ use super::{Files, LAB, STA, TRA, assert_refused, import_texts};
 
 #[test]
 fn a_model_is_read() {
-    let Imported { model, warnings } = import_texts(TRA, Some(STA), LAB).unwrap();
+    let Imported { model, warnings, .. } = import_texts(TRA, Some(STA), LAB).unwrap();
     assert_eq!(warnings, []);
     assert_eq!(model.kind(), ModelKind::Imdp);
     assert_eq!((model.size().choices, model.size().transitions, model.size().rows), (3, 4, 1));
@@ -83,7 +83,7 @@ fn rows_are_shared() {
     }
     // State 2 stays in one of two choices, so it is no absorbing state. State 3 has no choice.
     tra += &format!("2 0 2 1\n{}2 2 0 [0.10,1]\n2 2 1 [0,1]\n", row(2, 1, "0.3"));
-    let Imported { model, warnings } = import_texts(&tra, None, "0=\"init\"\n0: 0\n").unwrap();
+    let Imported { model, warnings, .. } = import_texts(&tra, None, "0=\"init\"\n0: 0\n").unwrap();
     assert_eq!(warnings, [Warning::Deadlocks { count: 1, first: 3 }]);
     assert_eq!(model.rows().len(), 4);
     assert_eq!(model.choices().ranges(0), [RowRange { first: 0, last: 2 }]);
@@ -137,4 +137,38 @@ fn a_choice_may_be_longer_than_a_chunk() {
     let model = import_texts(&tra, None, "0=\"init\"\n0: 0\n").unwrap().model;
     assert_eq!(model.rows().row(0).len(), width);
     assert!(model.choices().is_absorbing(7) && model.choices().is_deadlock(8));
+}
+
+#[test]
+fn layout_changes_nothing() {
+    let plain = import_texts(TRA, Some(STA), LAB).unwrap();
+    // Blank lines, comments, blanks and tabs, any order, numbers in other forms.
+    let tra =
+        "# T\n3  3\t4 \n\n2 0 2 [1., 1]\n1 0 1 [+1,4/4]\tb\n# x\n0 0 2  [.2,8e-1] a\n0 0 1 [1/5, 4/5] a \n";
+    let sta = "# States\n( x, b )\n2:(0,True)\n\n0: (3,true)\n1:(-1,False,)\n";
+    let lab = "0=\"init\"  1=\"deadlock\" 2=\"goal\" \n\n1:2\n1: 2\n0: 0 0\n2:\n";
+    for (tra, sta, lab) in [(tra, STA, LAB), (TRA, sta, LAB), (TRA, STA, lab), (tra, sta, lab)] {
+        let read = import_texts(tra, Some(sta), lab).unwrap();
+        assert_eq!(read.model, plain.model);
+        let odd = read.warnings.iter().any(|warning| matches!(warning, Warning::Layout { .. }));
+        assert_eq!(odd, tra != TRA);
+    }
+}
+
+#[test]
+fn names_need_not_be_identifiers() {
+    let tra = TRA.replace(" b\n", " -1\n").replace(" a\n", " a-b\n");
+    let lab = LAB.replace("goal", "reach me!");
+    let model = import_texts(&tra, Some(STA), &lab).unwrap().model;
+    assert_eq!(model.actions().name(0, None).unwrap(), "a-b");
+    assert_eq!(model.actions().name(1, None).unwrap(), "-1");
+    assert!(model.labels().get("reach me!").unwrap().contains(1));
+}
+
+#[test]
+fn variables_that_are_no_integers_are_left_out() {
+    let sta = "(x,b)\n0:(0.5,true)\n1:(1,false)\n2:(2,true)\n";
+    let Imported { model, warnings, .. } = import_texts(TRA, Some(sta), LAB).unwrap();
+    assert!(model.variables().get("x").is_none() && model.variables().get("b").is_some());
+    assert!(matches!(&warnings[..], [Warning::Ignored { what, .. }] if what.contains("x")), "{warnings:?}");
 }

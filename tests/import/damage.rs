@@ -102,7 +102,7 @@ proptest! {
             None => texts[file].truncate(at),
         }
         let outcome = Files::new(&texts[0], Some(&texts[1]), &texts[2]).import();
-        if let Ok(Imported { model, warnings }) = outcome
+        if let Ok(Imported { model, warnings, .. }) = outcome
             && !warnings.iter().any(|warning| matches!(warning, Warning::Widened { .. }))
         {
             let [tra, sta, lab] = texts.map(|text| String::from_utf8(text).unwrap().replace('\r', ""));

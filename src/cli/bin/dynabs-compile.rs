@@ -1,10 +1,9 @@
 //! Compiles a control problem into an interval MDP for PRISM.
 
-use clap::Parser;
-use dynabs_cli::commands::compile::{Arguments, run};
-use dynabs_cli::exit_with;
+use dynabs_cli::commands::compile::run;
+use dynabs_cli::start;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    exit_with(run(&Arguments::parse()))
+    start(run)
 }

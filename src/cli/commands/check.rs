@@ -47,7 +47,7 @@ enum Command {
 const AFTER_HELP: &str = "\
 Exit codes: 0 done (and every property true), 1 a property is false at an initial state, a comparison differs,
 a certificate is rejected or a simulation contradicts the promise, 2 bad input or usage, 3 undecided (limit, interrupt,
-the bounds straddle the threshold, or an engine gave no answer), 4 I/O or internal error (also an input outside U).";
+the bounds straddle the threshold, or an engine gave no answer), 4 I/O, memory or internal error (also an input outside U).";
 
 /// Runs the tool.
 ///

@@ -3,15 +3,15 @@
 use super::solve::{LimitArguments, Wanted, answer};
 use crate::results::{PropertyResult, exit_code, table};
 use crate::summary::{memory, summary};
-use crate::{Bars, CliError, EncodingName, FormatName, print, use_threads};
+use crate::{Bars, CliError, EncodingName, FormatName, print, use_threads, warn};
 use clap::Parser;
 use dynabs::abstraction::{Abstraction, Footprint, compile};
 use dynabs::model_file::{Document, SetArgument, json_schema, starter_model};
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, write_run};
+use imdp::files::{self, Outputs};
 use imdp::model::available_memory;
 use imdp::solver::Pruned;
 use serde_json::{Value, json};
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -92,7 +92,7 @@ pub struct Arguments {
 const PRUNING_EPSILON: f64 = 1e-9;
 
 const AFTER_HELP: &str = "\
-Exit codes: 0 done, 2 bad input or usage, 4 I/O or internal error;
+Exit codes: 0 done, 2 bad input or usage, 3 interrupted, 4 I/O, memory or internal error;
 with --solve or --prune also 1 the threshold is missed, 3 undecided (limit, interrupt, bounds straddle the threshold).
 
 Examples:
@@ -121,16 +121,16 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
 
 fn write_starter(file: &Path, quiet: bool) -> Result<(), CliError> {
     let shown = file.display();
-    let created = fs::OpenOptions::new().write(true).create_new(true).open(file);
-    let written = created.and_then(|mut out| out.write_all(starter_model().as_bytes()));
-    written.map_err(|error| match error.kind() {
+    let mut files = Outputs::default();
+    let written = files.write(file, |out| out.write_all(starter_model().as_bytes()));
+    written.and_then(|()| files.commit_new()).map_err(|error| match error.kind() {
         io::ErrorKind::AlreadyExists => CliError::Input(format!(
             "{shown}: found a file; expected a new name, since --init never overwrites"
         )),
         io::ErrorKind::NotFound => {
             CliError::Input(format!("{shown}: found no such directory; expected one that exists"))
         }
-        _ => CliError::Failure(format!("{shown}: {error}")),
+        _ => CliError::writing(file, &error),
     })?;
     if !quiet {
         print(&format!("Wrote {shown}. Try it:\n  dynabs-compile {shown} --dry-run\n"))?;
@@ -154,7 +154,7 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
         compile(&problem, &*bars).map_err(|error| CliError::of_abstraction(&error, &document.name))?;
     phases.extend(&abstraction.phases);
     // Until here there is nothing to clean up, and nothing to print.
-    bars.catch_interrupts()?;
+    bars.catch_interrupts();
     let mut results = Vec::new();
     let mut pruning = None;
     if arguments.prune {
@@ -214,7 +214,7 @@ fn prune(abstraction: &mut Abstraction, bars: &Bars) -> Result<(PropertyResult, 
 }
 
 fn read_model(path: &Path) -> Result<String, CliError> {
-    fs::read_to_string(path).map_err(|error| {
+    files::read_text(path).map_err(|error| {
         let shown = path.display();
         match error.kind() {
             io::ErrorKind::NotFound => CliError::Input(format!(
@@ -223,7 +223,7 @@ fn read_model(path: &Path) -> Result<String, CliError> {
             io::ErrorKind::InvalidData | io::ErrorKind::IsADirectory => {
                 CliError::Input(format!("{shown}: found something that is not text; expected a model file in JSON"))
             }
-            _ => CliError::Failure(format!("{shown}: {error}")),
+            _ => CliError::reading(path, &error),
         }
     })
 }
@@ -262,8 +262,7 @@ fn report(
         }
         let times: Vec<_> = phases.iter().map(|(name, time)| format!("{name} {time:.1?}")).collect();
         text += &format!("times: {}\n", times.join(", "));
-        // If stderr is closed there is nobody to warn.
-        let _ = io::stderr().write_all(text.as_bytes());
+        warn(&text);
     }
     if arguments.json {
         let times: serde_json::Map<String, Value> =

@@ -1,15 +1,15 @@
 //! `dynabs-check convert`: from one format to another.
 
 use crate::model_source::load;
-use crate::{Bars, CliError, EncodingName, FormatName, StagedFiles, print, thousands};
+use crate::{Bars, CliError, EncodingName, FormatName, print, thousands, warn};
 use clap::Args;
+use imdp::files::{self, Outputs};
 use imdp::formats::prism::RAISED_LOWER_BOUND;
 use imdp::formats::row_states::{EncodingError, RowStates};
 use imdp::formats::umb::Compression;
 use imdp::formats::{Format, ModelWriter, WriteError};
 use imdp::progress::Progress;
 use imdp::property::{Property, parse_properties};
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -74,10 +74,19 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
             output.display()
         )));
     };
-    refuse_existing(arguments, format)?;
+    let has_place = Outputs::is_file(output).map_err(|error| CliError::writing(output, &error))?;
+    if has_place {
+        refuse_existing(arguments, format)?;
+    } else if format == Format::Prism {
+        return Err(CliError::Input(format!(
+            "{}: found a device or a pipe; expected a regular file: this format has several files",
+            output.display()
+        )));
+    }
     let bars = Arc::new(Bars::new(arguments.quiet));
     let loaded = load(&arguments.input, arguments.explicit, &bars)?;
     let properties = read_properties(&loaded.properties)?;
+    loaded.require_unchanged()?;
     let mut warnings = loaded.warnings;
     let mut model = loaded.model;
     let mut texts: Vec<String> = properties.iter().map(ToString::to_string).collect();
@@ -89,26 +98,32 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
     if format == Format::Prism && model.rows().iter().any(|row| row.lower.contains(&0.0)) {
         warnings.push(format!("lower bounds of 0 are written as {RAISED_LOWER_BOUND:e}: PRISM refuses 0"));
     }
-    bars.catch_interrupts()?;
-    let mut files = StagedFiles::default();
+    bars.catch_interrupts();
+    let mut files = Outputs::default();
     let compression = if arguments.uncompressed { Compression::None } else { Compression::Gzip };
     let writer = ModelWriter::new(&model, format, compression)?;
     for (i, extension) in writer.extensions().iter().enumerate() {
         // The first file has the name that was asked for, whatever its extension.
         let path = if i == 0 { output.clone() } else { output.with_extension(extension) };
         bars.start("writing", if i == 0 { writer.bytes() } else { 0 });
-        files.write(&path, |out| writer.write(extension, out, &*bars))?;
+        let written = files.write(&path, |out| writer.write(extension, out, &*bars));
+        written.map_err(|error| CliError::writing(&path, &error))?;
         bars.finish();
     }
-    if !texts.is_empty() && !keeps_properties(arguments) {
+    if has_place && !texts.is_empty() && !keeps_properties(arguments) {
         let text = texts.iter().map(|text| format!("{text}\n")).collect::<String>();
-        files.write(&output.with_extension("props"), |out| out.write_all(text.as_bytes()))?;
+        let path = output.with_extension("props");
+        let written = files.write(&path, |out| out.write_all(text.as_bytes()));
+        written.map_err(|error| CliError::writing(&path, &error))?;
     }
-    files.commit()?;
+    let committed = if arguments.force { files.commit() } else { files.commit_new() };
+    committed.map_err(|error| match error.kind() {
+        io::ErrorKind::AlreadyExists => taken(output),
+        _ => CliError::writing(output, &error),
+    })?;
     if !arguments.quiet {
         let text: String = warnings.iter().map(|warning| format!("warning: {warning}\n")).collect();
-        // If stderr is closed there is nobody to warn.
-        let _ = io::stderr().write_all(text.as_bytes());
+        warn(&text);
         let size = model.size();
         print(&format!(
             "{}: {} states, {} choices, {} transitions\n",
@@ -131,12 +146,16 @@ fn refuse_existing(arguments: &ConvertArguments, format: Format) -> Result<(), C
         written.push(output.with_extension("props"));
     }
     match written.into_iter().find(|path| path.exists()).filter(|_| !arguments.force) {
-        Some(path) => Err(CliError::Input(format!(
-            "{}: found a file; expected a new name\n  Replace what is there with --force.",
-            path.display()
-        ))),
+        Some(path) => Err(taken(&path)),
         None => Ok(()),
     }
+}
+
+fn taken(path: &Path) -> CliError {
+    let path = path.display();
+    CliError::Input(format!(
+        "{path}: found a file; expected a new name\n  Replace what is there with --force."
+    ))
 }
 
 /// Whether the properties stay where they are, beside another file of the same model.
@@ -147,11 +166,11 @@ fn keeps_properties(arguments: &ConvertArguments) -> bool {
 }
 
 fn read_properties(path: &Path) -> Result<Vec<Property>, CliError> {
-    match fs::read_to_string(path) {
+    match files::read_text(path) {
         Ok(text) => {
             parse_properties(&text).map_err(|error| CliError::Input(format!("{}: {error}", path.display())))
         }
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(vec![]),
-        Err(error) => Err(CliError::Failure(format!("{}: {error}", path.display()))),
+        Err(error) => Err(CliError::reading(path, &error)),
     }
 }

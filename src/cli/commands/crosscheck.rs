@@ -3,7 +3,7 @@
 use super::solve::{LimitArguments, properties};
 use crate::crosscheck_table::table;
 use crate::model_source::load;
-use crate::{Bars, CliError, print};
+use crate::{Bars, CliError, print, warn};
 use clap::{Args, ValueEnum};
 use dynabs::run::NATIVE_MODEL;
 use imdp::engines::{
@@ -12,7 +12,6 @@ use imdp::engines::{
 };
 use imdp::model::available_memory;
 use serde_json::json;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -42,7 +41,7 @@ pub struct CrosscheckArguments {
     python: Option<PathBuf>,
 
     /// End an engine that takes longer than this many seconds for one property.
-    #[arg(long, value_name = "SECONDS", default_value_t = 600.0, value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 600.0, value_parser = super::solve::seconds)]
     timeout: f64,
 
     /// The memory an engine may use, such as 512m or 8g. Default: three quarters of what is available.
@@ -82,11 +81,6 @@ Examples:
   dynabs-check crosscheck out --with all
   dynabs-check crosscheck out --with prism --prism ~/prism/bin/prism --memory 8g -p 'Pmaxmin=? [ F \"reached\" ]'";
 
-fn seconds(text: &str) -> Result<f64, String> {
-    let number = super::solve::positive(text)?;
-    Duration::try_from_secs_f64(number).map(|_| number).map_err(|error| error.to_string())
-}
-
 fn mebibytes(text: &str) -> Result<u64, String> {
     let (digits, factor) = match text.to_ascii_lowercase() {
         lower if lower.ends_with('g') => (lower[..lower.len() - 1].to_owned(), 1024),
@@ -105,6 +99,7 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
     let loaded = load(&arguments.path, false, &bars)?;
     let properties = properties(&arguments.properties, &loaded.properties)?;
+    let digests = loaded.digests()?;
     let failure = |error| CliError::Failure(format!("{}: {error}", arguments.path.display()));
     let raised = raised(&loaded.model).map_err(failure)?;
     let files = explicit_files(&arguments.path, raised.is_some());
@@ -112,7 +107,7 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     say(arguments, &loaded.warnings, "warning: ");
     say(arguments, &missing.iter().map(ToString::to_string).collect::<Vec<_>>(), "missing: ");
 
-    bars.catch_interrupts()?;
+    bars.catch_interrupts();
     let memory_mib = arguments
         .memory
         .unwrap_or_else(|| available_memory().map_or(4096, |(bytes, _)| (bytes >> 20) / 4 * 3));
@@ -128,7 +123,8 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     if arguments.json {
         let object = json!({
             "version": env!("CARGO_PKG_VERSION"),
-            "path": arguments.path,
+            "path": arguments.path.display().to_string(),
+            "model": digests.iter().map(|file| json!({"kind": file.kind, "sha256": file.sha256})).collect::<Vec<_>>(),
             "agree": missing.is_empty() && agree(&findings),
             "findings": findings,
             "missing": missing.iter().map(|missing| missing.engine).collect::<Vec<_>>(),
@@ -142,9 +138,7 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
 
 fn say(arguments: &CrosscheckArguments, lines: &[String], head: &str) {
     if !arguments.quiet {
-        let text: String = lines.iter().map(|line| format!("{head}{line}\n")).collect();
-        // If stderr is closed there is nobody to warn.
-        let _ = io::stderr().write_all(text.as_bytes());
+        lines.iter().for_each(|line| warn(&format!("{head}{line}\n")));
     }
 }
 

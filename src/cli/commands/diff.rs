@@ -1,12 +1,13 @@
 //! `dynabs-check diff`: what changed between two runs.
 
+use crate::exports::replace;
 use crate::{CliError, print, thousands};
 use clap::Args;
 use dynabs::run::{RecordError, open_record};
 use imdp::compare::{CompareError, Comparison, DiffOptions, Reference, Section, Tolerance, diff};
 use serde_json::json;
 use std::fmt::Write as _;
-use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -60,6 +61,7 @@ impl From<RecordError> for CliError {
     fn from(error: RecordError) -> Self {
         match error {
             RecordError::Compare(error) => error.into(),
+            RecordError::Open(error) => error.into(),
             RecordError::Problem(error) => error.into(),
             error => Self::Input(error.to_string()),
         }
@@ -96,8 +98,7 @@ pub fn run(arguments: &DiffArguments) -> Result<ExitCode, CliError> {
 }
 
 fn write_reference(file: &Path, reference: &Reference) -> Result<ExitCode, CliError> {
-    let failure = |error| CliError::Failure(format!("{}: {error}", file.display()));
-    fs::write(file, reference.to_json()).map_err(failure)?;
+    replace(file, |out| out.write_all(reference.to_json().as_bytes()))?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -1,10 +1,10 @@
 //! `dynabs-check report`: a run as one page.
 
-use crate::exports::replace;
 use crate::run_source::{Refined, refine};
-use crate::{Bars, CliError, print};
+use crate::{Bars, CliError, print, warn};
 use clap::Args;
 use dynabs::report::{CrossCheckError, CrossChecks, Material, MaterialOptions, page, pictures};
+use imdp::files::Outputs;
 use imdp::solver::{AnswerError, SolverOptions};
 use std::fs;
 use std::io::Write;
@@ -52,8 +52,8 @@ pub struct ReportArguments {
 impl From<CrossCheckError> for CliError {
     fn from(error: CrossCheckError) -> Self {
         match error {
-            CrossCheckError::Io { .. } => Self::Failure(error.to_string()),
-            CrossCheckError::Malformed { .. } => Self::Input(error.to_string()),
+            CrossCheckError::Io { ref error, ref path } => Self::reading(path, error),
+            _ => Self::Input(error.to_string()),
         }
     }
 }
@@ -70,7 +70,13 @@ pub fn run(arguments: &ReportArguments) -> Result<ExitCode, CliError> {
     if arguments.no_times {
         times.clear();
     }
-    let cross_checks = CrossChecks::read(&arguments.directory)?;
+    let cross_checks = match CrossChecks::read(&arguments.directory, &run.manifest) {
+        Err(error @ CrossCheckError::OtherModel { .. }) => {
+            warn(&format!("warning: {error}\n"));
+            None
+        }
+        read => read?,
+    };
     let options = MaterialOptions {
         seed: arguments.seed,
         runs: arguments.runs,
@@ -86,19 +92,20 @@ pub fn run(arguments: &ReportArguments) -> Result<ExitCode, CliError> {
         return Err(CliError::Interrupted);
     }
     let page = page(&material).map_err(|error| CliError::Failure(error.to_string()))?;
-    let mut written = vec![arguments.output.clone()];
+    let mut texts = vec![(arguments.output.clone(), page)];
     if let Some(directory) = &arguments.svg {
-        let shown = directory.display();
-        fs::create_dir_all(directory).map_err(|error| CliError::Failure(format!("{shown}: {error}")))?;
-        for picture in pictures(&material) {
-            let path = directory.join(format!("{}.svg", picture.name));
-            replace(&path, |out| out.write_all(picture.svg.as_bytes()))?;
-            written.push(path);
-        }
+        fs::create_dir_all(directory).map_err(|error| CliError::writing(directory, &error))?;
+        let path = |name: &str| directory.join(format!("{name}.svg"));
+        texts.extend(pictures(&material).into_iter().map(|picture| (path(picture.name), picture.svg)));
     }
-    replace(&arguments.output, |out| out.write_all(page.as_bytes()))?;
+    let mut files = Outputs::default();
+    for (path, text) in &texts {
+        let written = files.write(path, |out| out.write_all(text.as_bytes()));
+        written.map_err(|error| CliError::writing(path, &error))?;
+    }
+    files.commit().map_err(|error| CliError::writing(&arguments.output, &error))?;
     if !arguments.quiet {
-        let lines = written.iter().map(|path| format!("wrote {}\n", path.display()));
+        let lines = texts.iter().map(|(path, _)| format!("wrote {}\n", path.display()));
         print(&lines.collect::<String>())?;
     }
     Ok(ExitCode::SUCCESS)

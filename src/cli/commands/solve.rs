@@ -1,17 +1,17 @@
 //! `dynabs-check solve`: properties of a model.
 
-use crate::exports::{write_certificate, write_policy, write_values};
-use crate::model_source::load;
+use crate::exports::{write_policy, write_values};
+use crate::model_source::{LoadedModel, load};
 use crate::results::{PropertyResult, exit_code, table};
-use crate::{Bars, CliError, print};
+use crate::{Bars, CliError, print, warn};
 use clap::Args;
+use imdp::certificate;
+use imdp::files::{self, Outputs};
 use imdp::model::IntervalMdp;
 use imdp::progress::Progress;
 use imdp::property::{Property, parse_properties, parse_property};
 use imdp::solver::{Answer, SolverOptions};
 use serde_json::{Value, json};
-use std::fs;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -67,13 +67,18 @@ pub struct LimitArguments {
     max_iterations: Option<u64>,
 
     /// Stop each property after this many seconds.
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time_limit: Option<f64>,
 }
 
 pub(super) fn positive(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|x| x.is_finite() && *x > 0.0);
     number.ok_or_else(|| "expected a positive number".to_owned())
+}
+
+pub(crate) fn seconds(text: &str) -> Result<f64, String> {
+    let number = positive(text)?;
+    Duration::try_from_secs_f64(number).map(|_| number).map_err(|error| error.to_string())
 }
 
 /// Runs the subcommand.
@@ -86,6 +91,7 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     let loaded = load(&arguments.path, arguments.explicit, &bars)?;
     let reading = start.elapsed();
     let properties = properties(&arguments.properties, &loaded.properties)?;
+    loaded.require_unchanged()?;
     let outputs = [&arguments.values, &arguments.policy, &arguments.certificate];
     if outputs.into_iter().any(Option::is_some) && properties.len() != 1 {
         let found = properties.len();
@@ -94,38 +100,52 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
         )));
     }
     if !arguments.quiet {
-        let warnings: String =
-            loaded.warnings.iter().map(|warning| format!("warning: {warning}\n")).collect();
-        // If stderr is closed there is nobody to warn.
-        let _ = io::stderr().write_all(warnings.as_bytes());
+        loaded.warnings.iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
     }
     let wanted = Wanted { policy: arguments.policy.is_some(), evidence: arguments.certificate.is_some() };
     let mut results = Vec::with_capacity(properties.len());
-    bars.catch_interrupts()?;
+    bars.catch_interrupts();
     for property in &properties {
-        let (mut answer, mut result) = answer(&loaded.model, property, &arguments.limits, wanted, &bars)?;
+        let (answer, mut result) = answer(&loaded.model, property, &arguments.limits, wanted, &bars)?;
         let claim = loaded.claim(property, [answer.lower, answer.upper]);
         result.guarantee = claim.map_err(|error| CliError::Input(format!("{property}: {error}")))?;
-        if let Some(path) = &arguments.values {
-            write_values(path, &loaded.model, &answer)?;
-        }
-        if let (Some(path), Some(policy)) = (&arguments.policy, &answer.solution.policy) {
-            write_policy(path, &loaded.model, policy)?;
-        }
-        if let Some(path) = &arguments.certificate {
-            let certificate = answer.certificate(property, loaded.digests()?);
-            certificate.map_or(Ok(()), |certificate| write_certificate(path, &certificate))?;
-        }
+        write_files(arguments, &loaded, property, answer)?;
         results.push(result);
     }
     if arguments.json {
         print(&format!("{:#}\n", report(&loaded.model, &results, &loaded.warnings, reading)))?;
     } else if !arguments.quiet {
         print(&table(&results))?;
-        let _ =
-            writeln!(io::stderr(), "times: reading {reading:.1?}, solving {:.1?}", start.elapsed() - reading);
+        warn(&format!("times: reading {reading:.1?}, solving {:.1?}\n", start.elapsed() - reading));
     }
     Ok(exit_code(&results))
+}
+
+/// Writes what was asked for about one property; all files appear together.
+fn write_files(
+    arguments: &SolveArguments,
+    loaded: &LoadedModel,
+    property: &Property,
+    mut answer: Answer,
+) -> Result<(), CliError> {
+    let model = &loaded.model;
+    let mut files = Outputs::default();
+    let failure = |path: &Path| {
+        let path = path.to_owned();
+        move |error| CliError::writing(&path, &error)
+    };
+    if let Some(path) = &arguments.values {
+        files.write(path, |out| write_values(model, &answer, out)).map_err(failure(path))?;
+    }
+    if let (Some(path), Some(policy)) = (&arguments.policy, &answer.solution.policy) {
+        files.write(path, |out| write_policy(model, policy, out)).map_err(failure(path))?;
+    }
+    if let Some(path) = &arguments.certificate
+        && let Some(certificate) = answer.certificate(property, loaded.digests()?)
+    {
+        files.write(path, |out| certificate::write(&certificate, out)).map_err(failure(path))?;
+    }
+    files.commit().map_err(|error| CliError::Failure(error.to_string()))
 }
 
 /// What is wanted of an answer besides the values.
@@ -210,11 +230,9 @@ pub(super) fn properties(given: &[String], beside: &Path) -> Result<Vec<Property
 
 fn read_properties(path: &Path) -> Result<Vec<Property>, CliError> {
     let shown = path.display();
-    let text = fs::read_to_string(path).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound | io::ErrorKind::InvalidData => {
-            CliError::Input(format!("{shown}: {error}; expected a file of properties"))
-        }
-        _ => CliError::Failure(format!("{shown}: {error}")),
+    let text = files::read_text(path).map_err(|error| match files::is_fault_of_input(&error) {
+        true => CliError::Input(format!("{shown}: {error}; expected a file of properties")),
+        false => CliError::reading(path, &error),
     })?;
     let properties = parse_properties(&text).map_err(|error| CliError::Input(format!("{shown}: {error}")))?;
     if properties.is_empty() {

@@ -4,10 +4,10 @@ use crate::model_source::load;
 use crate::{Bars, CliError, print, thousands};
 use clap::Args;
 use imdp::certificate::{Certificate, CertificateError, read_file};
+use imdp::files::is_fault_of_input;
 use imdp::property::Verdict;
 use imdp::verify::{Proved, Rejection, check};
 use serde_json::json;
-use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -39,7 +39,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<ExitCode, CliError> {
     let start = Instant::now();
     let shown = arguments.certificate.display();
     let certificate = read_file(&arguments.certificate).map_err(|error| match error {
-        CertificateError::Io(ref io) if io.kind() != io::ErrorKind::NotFound => {
+        CertificateError::Io(ref io) if !is_fault_of_input(io) => {
             CliError::Failure(format!("{shown}: {error}"))
         }
         _ => CliError::Input(format!("{shown}: {error}")),

@@ -156,5 +156,6 @@ fn meaning(formula: &StateFormula) -> Option<bool> {
             (left, right) => Some(!left? || right?),
         },
         StateFormula::Iff(left, right) => Some(meaning(left)? == meaning(right)?),
+        StateFormula::Differ(left, right) => Some(meaning(left)? != meaning(right)?),
     }
 }

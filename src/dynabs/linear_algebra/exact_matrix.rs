@@ -1,5 +1,6 @@
 //! Small dense matrices of exact rationals.
 
+use super::modular::rank;
 use imdp::numeric::{Rational, from_decimal, to_f64};
 use nalgebra::DMatrix;
 use num_traits::{One, Signed, Zero};
@@ -123,9 +124,14 @@ impl ExactMatrix {
         })
     }
 
-    /// The rank, exactly.
+    /// The rank, in the sense of [`rank`](super::modular::rank).
     pub fn rank(&self) -> usize {
-        self.clone().eliminate()
+        rank(self)
+    }
+
+    /// The number of bits that the largest entry takes.
+    pub fn bits(&self) -> u64 {
+        self.entries.iter().map(|entry| entry.numer().bits() + entry.denom().bits()).max().unwrap_or(0)
     }
 
     /// The inverse of a square matrix; `None` if it is singular.
@@ -149,8 +155,8 @@ impl ExactMatrix {
         self.times(&transposed).inverse().map(|gram| transposed.times(&gram))
     }
 
-    /// Reduced row echelon form in place; returns the rank.
-    fn eliminate(&mut self) -> usize {
+    /// Reduced row echelon form in place.
+    fn eliminate(&mut self) {
         let mut rank = 0;
         for column in 0..self.columns {
             let Some(pivot) = (rank..self.rows).find(|&i| !self.get(i, column).is_zero()) else { continue };
@@ -176,7 +182,6 @@ impl ExactMatrix {
                 break;
             }
         }
-        rank
     }
 
     /// The first pair `(i, j)`, `i < j`, with `M_ij ≠ M_ji`, if any.

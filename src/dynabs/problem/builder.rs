@@ -109,6 +109,7 @@ impl ProblemBuilder {
         let n = step_system.state_dimension();
         let step_input = self.input.polytope("/input", step_system.input_dimension())?;
         let group_steps = dynamics::group_steps(self.group_steps, &step_system)?;
+        dynamics::require_short_numbers(&step_system, group_steps)?;
         let system = group(&step_system, group_steps);
         let input = step_input.power(group_steps);
 

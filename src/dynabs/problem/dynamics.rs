@@ -3,7 +3,7 @@
 use super::values::{matrix, vector};
 use crate::Diagnostic;
 use crate::linear_algebra::ExactMatrix;
-use crate::system::{LinearSystem, group, smallest_group};
+use crate::system::{LinearSystem, TooManyDigits, require_digits, smallest_group};
 
 /// The dynamics of one step.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,6 +70,15 @@ impl LinearDynamics {
     }
 }
 
+/// Refuses matrices that cannot be computed with exactly.
+pub(super) fn require_short_numbers(system: &LinearSystem, d: usize) -> Result<(), Diagnostic> {
+    require_digits(system, d).map_err(|TooManyDigits { digits, steps }| {
+        let found = format!("matrices with numbers of up to {digits} digits after {steps} steps");
+        Diagnostic::at("/dynamics", found, "numbers that can be computed with exactly")
+            .remedy("Write the matrices with fewer digits, or group fewer steps.")
+    })
+}
+
 /// The number of steps, if the grouped `B` has full row rank with it.
 pub(super) fn group_steps(steps: GroupSteps, system: &LinearSystem) -> Result<usize, Diagnostic> {
     let n = system.state_dimension();
@@ -81,7 +90,7 @@ pub(super) fn group_steps(steps: GroupSteps, system: &LinearSystem) -> Result<us
             Err(Diagnostic::at(place, d.to_string(), format!("at most 64; {smallest} would do")))
         }
         GroupSteps::Steps(d) => {
-            let rank = group(system, d as usize).b().rank();
+            let rank = system.grouped_rank(d as usize);
             if rank == n {
                 return Ok(d as usize);
             }

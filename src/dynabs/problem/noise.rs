@@ -228,7 +228,7 @@ impl GivenSamples {
 impl SamplesFile {
     fn obtain(&self, system: &LinearSystem, d: usize) -> Result<SampledNoise, Diagnostic> {
         let name = self.path.display().to_string();
-        let text = std::fs::read_to_string(&self.path).map_err(|error| {
+        let text = imdp::files::read_text(&self.path).map_err(|error| {
             let found = format!("\"{}\" ({error})", self.name);
             Diagnostic::at("/noise/samples/file", found, "a readable CSV file")
                 .remedy("Relative paths start at the directory of the model file.")

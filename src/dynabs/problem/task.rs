@@ -123,6 +123,13 @@ fn horizon(horizon: Horizon, d: usize, warnings: &mut Vec<String>) -> Result<Opt
         let expected = format!("at least {d}, the number of steps that are grouped into one");
         return Err(Diagnostic::at("/task/horizon", steps.to_string(), expected));
     }
+    // A property counts steps as PRISM does.
+    if i32::try_from(grouped).is_err() {
+        let most = i32::MAX as u64 * d as u64;
+        let expected =
+            format!("at most {most}, which is as many steps as a property can have, or \"infinite\"");
+        return Err(Diagnostic::at("/task/horizon", steps.to_string(), expected));
+    }
     if rest > 0 {
         let used = grouped * d as u64;
         warnings.push(format!(

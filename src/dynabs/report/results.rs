@@ -1,5 +1,6 @@
 //! What other engines said, if a run was cross-checked.
 
+use crate::run::Manifest;
 use serde::Deserialize;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -10,7 +11,17 @@ pub const CROSS_CHECK: &str = "crosscheck.json";
 /// The answers of other engines.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct CrossChecks {
+    /// The files of the model that was asked about.
+    #[serde(default)]
+    model: Vec<ModelFile>,
     pub(super) findings: Vec<Finding>,
+}
+
+/// A file of a model.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+struct ModelFile {
+    kind: String,
+    sha256: String,
 }
 
 /// What one engine said about one property.
@@ -51,21 +62,43 @@ pub enum CrossCheckError {
         /// Where it stops making sense.
         error: serde_json::Error,
     },
+    /// The answers are about another model, or do not say which.
+    #[error("{path}: found answers about another model; they are not shown\n  Cross-check this one again.", path = path.display())]
+    OtherModel {
+        /// The file.
+        path: PathBuf,
+    },
 }
 
 impl CrossChecks {
-    /// The results in a run's directory; `None` if there are none.
+    /// The results in the directory of a run with this manifest; `None` if there are none.
     ///
     /// # Errors
-    /// [`CrossCheckError`] if the file is there but unreadable or something else.
-    pub fn read(directory: &Path) -> Result<Option<Self>, CrossCheckError> {
+    /// [`CrossCheckError`] if the file is there but unreadable or something else, or about another model.
+    pub fn read(directory: &Path, manifest: &Manifest) -> Result<Option<Self>, CrossCheckError> {
         let path = directory.join(CROSS_CHECK);
-        match std::fs::read(&path) {
+        match imdp::files::read(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(error) => Err(CrossCheckError::Io { path, error }),
-            Ok(bytes) => serde_json::from_slice(&bytes)
-                .map(Some)
-                .map_err(|error| CrossCheckError::Malformed { path, error }),
+            Ok(bytes) => {
+                let found = serde_json::from_slice::<Self>(&bytes);
+                let found =
+                    found.map_err(|error| CrossCheckError::Malformed { path: path.clone(), error })?;
+                if found.is_about(manifest) {
+                    Ok(Some(found))
+                } else {
+                    Err(CrossCheckError::OtherModel { path })
+                }
+            }
         }
+    }
+
+    /// Whether every file that was asked about is one of the run.
+    fn is_about(&self, manifest: &Manifest) -> bool {
+        let is_output = |file: &ModelFile| {
+            let name = format!("model.{}", file.kind);
+            manifest.outputs.iter().any(|output| output.name == name && output.sha256 == file.sha256)
+        };
+        !self.model.is_empty() && self.model.iter().all(is_output)
     }
 }

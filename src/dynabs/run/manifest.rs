@@ -159,9 +159,9 @@ impl Manifest {
         }
     }
 
-    /// Whether this is a manifest of ours.
-    pub fn is_ours(&self) -> bool {
-        self.format == FORMAT
+    /// Whether a manifest with this `format` is one of ours.
+    pub(super) fn is_format(format: &str) -> bool {
+        format == FORMAT
     }
 }
 

@@ -1,5 +1,7 @@
 //! The output directory of a run: staged, hashed, renamed into place, described by a manifest; and opened again.
 
+mod appearance;
+mod files;
 mod manifest;
 mod open;
 mod pruning;
@@ -8,6 +10,7 @@ mod row_states;
 mod staging;
 mod write;
 
+pub use files::RunFiles;
 pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile};
 pub use open::{OpenError, Run};
 pub use pruning::PruningReport;

@@ -1,18 +1,20 @@
 //! A run opened again, with everything that it knows.
 
+use super::appearance::{NOISE, PROBLEM};
+use super::files::RunFiles;
 use super::manifest::Manifest;
-use super::staging::MANIFEST;
-use super::write::{NATIVE_MODEL, PROBLEM};
+use super::write::NATIVE_MODEL;
 use crate::Diagnostic;
 use crate::abstraction::{Abstraction, AbstractionError};
 use crate::model_file::Document;
 use crate::problem::Problem;
+use imdp::files::steady;
 use imdp::formats::native::{self, NativeError};
 use imdp::formats::sha256_hex;
 use imdp::progress::Progress;
 use imdp::property::Property;
 use imdp::solver::{Answer, AnswerError, SolverOptions};
-use std::fs;
+use serde_json::Value;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -75,6 +77,16 @@ pub enum OpenError {
         /// The path of the file.
         path: String,
     },
+    /// The problem names a file elsewhere.
+    #[error(
+        "{path}: found the file \"{found}\"; expected \"noise.csv\", for a run refers to nothing outside of its directory\n  Compile the model again."
+    )]
+    ForeignFile {
+        /// The path of the problem.
+        path: String,
+        /// The file that it names.
+        found: String,
+    },
     /// The model was pruned.
     #[error(
         "{path}: found a pruned model; expected the whole one, whose actions are compared with the law\n  Compile it without --prune: the value and the policy are the same."
@@ -113,26 +125,33 @@ pub enum OpenError {
 }
 
 impl Run {
-    /// Opens a directory: nothing in it is believed before its hash is that of the manifest.
+    /// Opens a directory: nothing in it is believed before its hash is that of the manifest, and nothing outside of it
+    /// is read.
     ///
     /// # Errors
     /// [`OpenError`] if something is missing, changed, or made by an incompatible version.
     pub fn open(directory: &Path, progress: &dyn Progress) -> Result<Self, OpenError> {
+        steady(&[directory.to_owned()], || Self::open_once(directory, progress))
+    }
+
+    fn open_once(directory: &Path, progress: &dyn Progress) -> Result<Self, OpenError> {
         let shown = directory.display().to_string();
-        let manifest = read_manifest(directory)?;
+        let refuse = |found: &str| OpenError::NoRun { path: shown.clone(), found: found.to_owned() };
+        if !directory.is_dir() {
+            return Err(refuse(if directory.exists() { "a file" } else { "nothing" }));
+        }
+        let files = RunFiles::find(directory)?.ok_or_else(|| refuse("no manifest.json"))?;
+        let manifest = files.manifest()?;
         if manifest.pruning.is_some() {
             return Err(OpenError::Pruned { path: shown });
         }
-        let verified = |name: &str| read_verified(directory, name, &manifest);
-        let path = directory.join(PROBLEM);
-        let text = String::from_utf8_lossy(&verified(PROBLEM)?).into_owned();
-        let document = Document::parse(&path, &text)?;
+        let document = problem_document(directory, &files.read(PROBLEM)?)?;
         let problem = document.problem()?;
-        if let Some((name, text)) = problem.noise().file() {
+        if let Some((_, text)) = problem.noise().file() {
             // What was read, not what is there by now.
-            verify(directory, name, text.as_bytes(), &manifest)?;
+            files.compare(NOISE, &sha256_hex(text.as_bytes()))?;
         }
-        let bytes = verified(NATIVE_MODEL)?;
+        let bytes = files.read(NATIVE_MODEL)?;
         let model = native::read_from(bytes.as_slice(), bytes.len() as u64).map_err(|error| {
             OpenError::Model { path: directory.join(NATIVE_MODEL).display().to_string(), error }
         })?;
@@ -156,39 +175,29 @@ impl Run {
     }
 }
 
-fn read_manifest(directory: &Path) -> Result<Manifest, OpenError> {
-    let refuse = |found: String| OpenError::NoRun { path: directory.display().to_string(), found };
-    if !directory.is_dir() {
-        let found = if directory.exists() { "a file" } else { "nothing" };
-        return Err(refuse(found.to_owned()));
-    }
-    let path = directory.join(MANIFEST);
-    let bytes = fs::read(&path).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => refuse(format!("no {MANIFEST}")),
-        _ => OpenError::Io { path: path.display().to_string(), error },
-    })?;
-    let manifest: Manifest = serde_json::from_slice(&bytes)
-        .map_err(|error| refuse(format!("a {MANIFEST} that cannot be read ({error})")))?;
-    if manifest.is_ours() { Ok(manifest) } else { Err(refuse(format!("the {MANIFEST} of another format"))) }
-}
-
-fn read_verified(directory: &Path, name: &str, manifest: &Manifest) -> Result<Vec<u8>, OpenError> {
-    let path = directory.join(name);
-    let bytes = fs::read(&path).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => {
-            OpenError::NoRun { path: directory.display().to_string(), found: format!("no {name}") }
+/// The problem of a run, which names no file but the one beside it.
+///
+/// # Errors
+/// [`OpenError::ForeignFile`] if it does.
+pub(super) fn problem_document(directory: &Path, bytes: &[u8]) -> Result<Document, OpenError> {
+    let path = directory.join(PROBLEM);
+    let document = Document::parse(&path, &String::from_utf8_lossy(bytes))?;
+    match foreign_file(&document.value) {
+        None => Ok(document),
+        Some(file) => {
+            Err(OpenError::ForeignFile { path: path.display().to_string(), found: file.to_owned() })
         }
-        _ => OpenError::Io { path: path.display().to_string(), error },
-    })?;
-    verify(directory, name, &bytes, manifest)?;
-    Ok(bytes)
+    }
 }
 
-fn verify(directory: &Path, name: &str, bytes: &[u8], manifest: &Manifest) -> Result<(), OpenError> {
-    let hash = sha256_hex(bytes);
-    if manifest.outputs.iter().any(|file| file.name == name && file.sha256 == hash) {
-        Ok(())
-    } else {
-        Err(OpenError::Changed { path: directory.join(name).display().to_string() })
+/// The first file that a model file names and that is not the samples of a run.
+fn foreign_file(value: &Value) -> Option<&str> {
+    match value {
+        Value::Object(fields) => fields.iter().find_map(|(key, value)| match value {
+            Value::String(file) if key == "file" => Some(file.as_str()).filter(|file| *file != NOISE),
+            value => foreign_file(value),
+        }),
+        Value::Array(items) => items.iter().find_map(foreign_file),
+        _ => None,
     }
 }

@@ -1,13 +1,14 @@
 //! A run directory as one side of a comparison.
 
+use super::appearance::PROBLEM;
+use super::files::RunFiles;
 use super::manifest::Manifest;
-use super::staging::MANIFEST;
-use super::write::PROBLEM;
+use super::open::{OpenError, problem_document};
 use crate::Diagnostic;
 use crate::abstraction::{AbstractionError, compile};
 use crate::model_file::Document;
 use imdp::compare::{self, CompareError, Record, Sizes};
-use std::fs;
+use imdp::files::steady;
 use std::path::Path;
 
 /// Why a path is no side of a comparison.
@@ -17,6 +18,9 @@ pub enum RecordError {
     /// What is there cannot be compared.
     #[error(transparent)]
     Compare(#[from] CompareError),
+    /// A run directory is refused.
+    #[error(transparent)]
+    Open(#[from] OpenError),
     /// The problem of a run directory is refused.
     #[error(transparent)]
     Problem(#[from] Diagnostic),
@@ -37,37 +41,34 @@ pub enum RecordError {
 /// # Errors
 /// [`RecordError`] if nothing is there, or something malformed.
 pub fn open_record(path: &Path) -> Result<Record, RecordError> {
-    let manifest = path.join(MANIFEST);
-    if !manifest.is_file() {
-        return Ok(compare::open(path)?);
+    steady(&[path.to_owned()], || open_once(path))
+}
+
+fn open_once(path: &Path) -> Result<Record, RecordError> {
+    let Some(files) = RunFiles::find(path)? else { return Ok(compare::open(path)?) };
+    for name in ["model.dynabs", "model.tra", "model.sta", "model.lab", "model.props"] {
+        if path.join(name).exists() {
+            files.verified(name)?;
+        }
     }
     let mut record = compare::collect(path)?.unwrap_or_default();
     record.name = path.display().to_string();
-    read_manifest(&manifest, &mut record)?;
-    let problem = path.join(PROBLEM);
-    if record.model.is_none() && problem.exists() {
-        compile_again(&problem, &mut record)?;
-    }
-    Ok(record)
-}
-
-fn read_manifest(path: &Path, record: &mut Record) -> Result<(), CompareError> {
-    let manifest: Manifest = serde_json::from_str(&read(path)?).map_err(|error| CompareError::Unusable {
-        path: path.display().to_string(),
-        found: error.to_string(),
-        expected: "a manifest written by dynabs-compile",
-    })?;
+    let manifest = files.manifest()?;
     record.title = format!("{} ({} mode)", manifest.name, manifest.mode);
     if record.sizes.is_none() {
         let Manifest { states, choices, transitions, .. } = manifest;
         record.sizes = Some(Sizes { states, choices, transitions, rows: None, entries: None });
     }
-    Ok(())
+    let problem = path.join(PROBLEM);
+    if record.model.is_none() && problem.exists() {
+        compile_again(&problem, &problem_document(path, &files.read(PROBLEM)?)?, &mut record)?;
+    }
+    Ok(record)
 }
 
 /// Gets the model of a directory without one from the problem that it was made of.
-fn compile_again(path: &Path, record: &mut Record) -> Result<(), RecordError> {
-    let problem = Document::parse(path, &read(path)?)?.problem()?;
+fn compile_again(path: &Path, document: &Document, record: &mut Record) -> Result<(), RecordError> {
+    let problem = document.problem()?;
     let refuse = |error| RecordError::Abstraction { path: path.display().to_string(), error };
     let abstraction = compile(&problem, &()).map_err(refuse)?;
     record.sizes = Some(Sizes::new(&abstraction.model));
@@ -75,8 +76,4 @@ fn compile_again(path: &Path, record: &mut Record) -> Result<(), RecordError> {
     record.properties = vec![abstraction.property];
     record.notes.push(format!("{}: there is no model beside it, it was compiled again", path.display()));
     Ok(())
-}
-
-fn read(path: &Path) -> Result<String, CompareError> {
-    fs::read_to_string(path).map_err(|error| CompareError::Io { path: path.display().to_string(), error })
 }

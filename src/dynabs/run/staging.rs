@@ -1,13 +1,15 @@
 //! Files that appear all at once or not at all.
 
+use super::appearance::{Appearance, AppearanceError, MANIFEST, settle};
 use super::manifest::{Manifest, OutputFile};
+use imdp::files::{self, StagedDirectory};
 use imdp::formats::HashingWriter;
 use imdp::formats::WriteError;
 use imdp::formats::row_states::EncodingError;
+use serde::Deserialize;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use tempfile::TempDir;
 
 /// Why an output directory cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -27,6 +29,14 @@ pub enum RunDirectoryError {
         "{path}: found the output of an earlier run; expected a new or empty directory\n  Choose another name with -o, or replace it with --force."
     )]
     Exists {
+        /// The path.
+        path: String,
+    },
+    /// Another process wrote there meanwhile.
+    #[error(
+        "{path}: found what another process wrote meanwhile; expected what was there before\n  Nothing was written. Run it again, with --force if the other output may go."
+    )]
+    Raced {
         /// The path.
         path: String,
     },
@@ -67,16 +77,15 @@ impl RunDirectoryError {
     }
 }
 
-/// The name of the file that makes a directory ours.
-pub(super) const MANIFEST: &str = "manifest.json";
-
-/// An output directory under construction, beside the place where it will appear.
+/// An output directory under construction, beside the place where it will appear or inside of it.
 #[derive(Debug)]
 pub struct Staging {
+    /// The place, as it was given.
+    shown: PathBuf,
+    /// The place without links.
     target: PathBuf,
-    directory: TempDir,
-    /// The manifest of the run that is being replaced.
-    replaces: Option<Manifest>,
+    appearance: Appearance,
+    directory: StagedDirectory,
     files: Vec<OutputFile>,
 }
 
@@ -86,44 +95,57 @@ impl Staging {
     /// # Errors
     /// [`RunDirectoryError`] if something else is there, or an earlier run and not `force`.
     pub fn begin(target: &Path, force: bool) -> Result<Self, RunDirectoryError> {
-        let replaces = Self::check(target, force)?;
-        let parent = match target.parent() {
-            Some(parent) if !parent.as_os_str().is_empty() => parent.to_path_buf(),
-            _ => PathBuf::from("."),
+        Self::check(target, force)?;
+        let io = || RunDirectoryError::io(target);
+        let given_parent = target.parent().filter(|parent| !parent.as_os_str().is_empty());
+        fs::create_dir_all(given_parent.unwrap_or(Path::new("."))).map_err(io())?;
+        let foreign = |found| RunDirectoryError::Foreign { path: target.display().to_string(), found };
+        let place = files::resolve(target).map_err(io())?.ok_or_else(|| foreign("found a file in use"))?;
+        let parent = place.parent().ok_or_else(|| foreign("found the root directory"))?;
+        let mut appearance = Appearance::at(&place, parent).map_err(io())?;
+        let directory = match StagedDirectory::new(appearance.staged_in(&place, parent)) {
+            // Whoever may not write beside a directory may still write in it.
+            Err(_) if place.is_dir() => {
+                appearance = Appearance::within(&place);
+                StagedDirectory::new(&place)
+            }
+            created => created,
         };
-        fs::create_dir_all(&parent).map_err(RunDirectoryError::io(&parent))?;
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".dynabs-");
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            builder.permissions(fs::Permissions::from_mode(0o777));
-        }
-        let directory = builder.tempdir_in(&parent).map_err(RunDirectoryError::io(&parent))?;
-        Ok(Self { target: target.to_path_buf(), directory, replaces, files: vec![] })
+        Ok(Self {
+            shown: target.to_path_buf(),
+            directory: directory.map_err(io())?,
+            target: place,
+            appearance,
+            files: vec![],
+        })
     }
 
     /// Whether `target` may be written: a new place, an empty directory, or with `force` an earlier run.
     ///
+    /// What a killed process left behind in it is removed, or finished if it was about to be all there.
+    ///
     /// # Errors
-    /// Those of [`begin`](Self::begin); nothing is created.
-    pub fn check(target: &Path, force: bool) -> Result<Option<Manifest>, RunDirectoryError> {
+    /// Those of [`begin`](Self::begin).
+    pub fn check(target: &Path, force: bool) -> Result<(), RunDirectoryError> {
         let path = || target.display().to_string();
-        if !target.exists() && !target.is_symlink() {
-            return Ok(None);
+        match fs::symlink_metadata(target) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+            Err(error) => return Err(RunDirectoryError::io(target)(error)),
+            Ok(_) if !target.is_dir() => {
+                return Err(RunDirectoryError::Foreign { path: path(), found: "found a file" });
+            }
+            Ok(_) => {}
         }
-        if !target.is_dir() {
-            return Err(RunDirectoryError::Foreign { path: path(), found: "found a file" });
-        }
+        settle(target).map_err(RunDirectoryError::io(target))?;
+        files::clear(target);
         let mut entries = fs::read_dir(target).map_err(RunDirectoryError::io(target))?;
         if entries.next().is_none() {
-            return Ok(None);
+            return Ok(());
         }
-        let manifest = fs::read(target.join(MANIFEST)).ok();
-        match manifest.and_then(|bytes| serde_json::from_slice::<Manifest>(&bytes).ok()) {
-            Some(manifest) if manifest.is_ours() && force => Ok(Some(manifest)),
-            Some(manifest) if manifest.is_ours() => Err(RunDirectoryError::Exists { path: path() }),
-            _ => {
+        match is_run(target) {
+            true if force => Ok(()),
+            true => Err(RunDirectoryError::Exists { path: path() }),
+            false => {
                 Err(RunDirectoryError::Foreign { path: path(), found: "found a directory with other files" })
             }
         }
@@ -134,13 +156,12 @@ impl Staging {
     /// # Errors
     /// [`RunDirectoryError::DiskFull`] with the estimate.
     pub fn require_space(&self, bytes: u64) -> Result<(), RunDirectoryError> {
-        let free =
-            fs4::available_space(self.directory.path()).map_err(RunDirectoryError::io(&self.target))?;
+        let free = fs4::available_space(self.directory.path()).map_err(RunDirectoryError::io(&self.shown))?;
         if bytes <= free {
             return Ok(());
         }
         Err(RunDirectoryError::DiskFull {
-            path: self.target.display().to_string(),
+            path: self.shown.display().to_string(),
             needed_mib: bytes.div_ceil(1 << 20),
             free_mib: free >> 20,
         })
@@ -155,13 +176,13 @@ impl Staging {
         name: &str,
         fill: impl FnOnce(&mut HashingWriter<BufWriter<File>>) -> io::Result<()>,
     ) -> Result<(), RunDirectoryError> {
-        let shown = self.target.join(name);
+        let shown = self.shown.join(name);
         let write = || {
-            let file = File::create(self.directory.path().join(name))?;
+            let file = File::create_new(self.directory.path().join(name))?;
             let mut writer = HashingWriter::new(BufWriter::with_capacity(1 << 16, file));
             fill(&mut writer)?;
             let (buffered, bytes, sha256) = writer.finish();
-            buffered.into_inner().map_err(io::IntoInnerError::into_error)?.sync_data()?;
+            buffered.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()?;
             Ok(OutputFile { name: name.to_owned(), bytes, sha256 })
         };
         self.files.push(write().map_err(RunDirectoryError::io(&shown))?);
@@ -173,35 +194,34 @@ impl Staging {
         &self.files
     }
 
-    /// Puts everything into place, the manifest last.
+    /// Puts everything into place at once, the manifest with it.
     ///
-    /// A new directory appears by one rename. In an existing one the old manifest goes first, so that at no
-    /// time a manifest describes files of another run.
+    /// Of an earlier run nothing stays; other files in its directory do.
     ///
     /// # Errors
-    /// [`RunDirectoryError::Io`] if the system refuses.
+    /// [`RunDirectoryError::Raced`] if another process wrote there meanwhile, [`RunDirectoryError::Io`] if the system
+    /// refuses.
     pub fn commit(mut self, manifest: &Manifest) -> Result<(), RunDirectoryError> {
         let mut text = serde_json::to_string_pretty(manifest)
-            .map_err(|error| RunDirectoryError::io(&self.target)(io::Error::other(error)))?;
+            .map_err(|error| RunDirectoryError::io(&self.shown)(io::Error::other(error)))?;
         text.push('\n');
         self.write(MANIFEST, |out| out.write_all(text.as_bytes()))?;
-        let place = |error| RunDirectoryError::io(&self.target)(error);
-        if !self.target.exists() {
-            return fs::rename(self.directory.keep(), &self.target).map_err(place);
-        }
-        if let Some(old) = &self.replaces {
-            fs::remove_file(self.target.join(MANIFEST)).map_err(place)?;
-            for file in &old.outputs {
-                match fs::remove_file(self.target.join(&file.name)) {
-                    Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(place(error)),
-                    _ => {}
-                }
-            }
-        }
-        for file in &self.files {
-            let (from, to) = (self.directory.path().join(&file.name), self.target.join(&file.name));
-            fs::rename(from, to).map_err(place)?;
-        }
-        Ok(())
+        files::sync_directory(self.directory.path()).map_err(RunDirectoryError::io(&self.shown))?;
+        let published = self.directory.publish(|staged| self.appearance.publish(staged, &self.target));
+        published.map_err(|error| match error {
+            AppearanceError::Raced => RunDirectoryError::Raced { path: self.shown.display().to_string() },
+            AppearanceError::Io(error) => RunDirectoryError::io(&self.shown)(error),
+        })
     }
+}
+
+/// Whether there is a manifest of ours, of whatever version; nothing else of it is believed.
+fn is_run(directory: &Path) -> bool {
+    #[derive(Deserialize)]
+    struct Head {
+        format: String,
+    }
+    let bytes = files::read(&directory.join(MANIFEST)).ok();
+    let head = bytes.and_then(|bytes| serde_json::from_slice::<Head>(&bytes).ok());
+    head.is_some_and(|head| Manifest::is_format(&head.format))
 }

@@ -1,5 +1,6 @@
 //! Writing all files of a run.
 
+use super::appearance::{NOISE, PROBLEM};
 use super::manifest::Manifest;
 use super::row_states::RowStatesReport;
 use super::staging::{RunDirectoryError, Staging};
@@ -26,12 +27,6 @@ pub struct WriteOptions {
 
 /// The name of the native model in a run's directory.
 pub const NATIVE_MODEL: &str = "model.dynabs";
-
-/// The name of the problem in a run's directory.
-pub(super) const PROBLEM: &str = "problem.json";
-
-/// The name of the noise samples in a run's directory.
-const NOISE: &str = "noise.csv";
 
 /// Writes the directory `target`: the model in the formats asked for, the native model, the property, the problem, the samples, the manifest.
 ///

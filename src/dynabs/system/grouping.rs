@@ -23,7 +23,35 @@ pub fn group(system: &LinearSystem, d: usize) -> LinearSystem {
 /// The smallest `d` that makes `B̂` of full row rank; `None` iff `(A, B)` is not controllable.
 pub fn smallest_group(system: &LinearSystem) -> Option<usize> {
     let n = system.state_dimension();
-    (1..=n).find(|&d| group(system, d).b().rank() == n)
+    (1..=n).find(|&d| system.grouped_rank(d) == n)
+}
+
+/// The matrices of grouped steps have too many digits to compute with them exactly.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "numbers of up to {digits} digits after {steps} steps; expected numbers that can be computed with exactly"
+)]
+pub struct TooManyDigits {
+    /// How many digits they have.
+    pub digits: u64,
+    /// How many steps are grouped.
+    pub steps: usize,
+}
+
+/// Fails if inverting the matrices of `d` grouped steps exactly would take too long.
+///
+/// `n³` products of numbers of `n` times as many bits as the entries have, each quadratic in them.
+///
+/// # Errors
+/// [`TooManyDigits`] with the number of digits.
+pub fn require_digits(system: &LinearSystem, d: usize) -> Result<(), TooManyDigits> {
+    const MOST: f64 = 1e10;
+    let n = system.state_dimension() as f64;
+    let bits = d as u64 * system.a().bits() + system.b().bits().max(system.q().bits());
+    if n.powi(5) * (bits as f64).powi(2) <= MOST {
+        return Ok(());
+    }
+    Err(TooManyDigits { digits: (bits as f64 * std::f64::consts::LOG10_2) as u64, steps: d })
 }
 
 #[cfg(test)]

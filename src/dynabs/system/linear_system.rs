@@ -1,6 +1,6 @@
 //! The system `x⁺ = A x + B u + q + η`.
 
-use crate::linear_algebra::ExactMatrix;
+use crate::linear_algebra::{ExactMatrix, krylov_rank};
 
 /// `x⁺ = A x + B u + q + η` with `x ∈ ℝⁿ`, `u ∈ ℝᵖ`; all matrices in exact decimals.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,12 +51,11 @@ impl LinearSystem {
 
     /// The rank of the controllability matrix `[B AB … Aⁿ⁻¹B]`; `(A, B)` is controllable iff it is `n`.
     pub fn controllability_rank(&self) -> usize {
-        let mut power = self.b.clone();
-        let mut matrix = self.b.clone();
-        for _ in 1..self.state_dimension() {
-            power = self.a.times(&power);
-            matrix = matrix.beside(&power);
-        }
-        matrix.rank()
+        self.grouped_rank(self.state_dimension())
+    }
+
+    /// The rank of `[B AB … Aᵈ⁻¹B]`, which is the `B` of `d` grouped steps in another order.
+    pub fn grouped_rank(&self, d: usize) -> usize {
+        krylov_rank(&self.a, &self.b, d)
     }
 }

@@ -1,13 +1,25 @@
-//! Linear systems: grouping of steps, LQR, the two-layer closed loop, and the affine feedback law.
+//! Systems: how the state moves, where it takes cells, and the feedback laws that steer it.
+//!
+//! For steering to targets: linear systems, grouping of steps, LQR, the two-layer closed loop, the affine feedback
+//! law. For any system: [`expression`]s, [`Interval`]s, [`Mode`]s, and the [`Images`] of cells under inputs.
 
+pub mod expression;
+mod feedback;
 mod grouping;
+mod image;
+mod interval;
 mod law;
 mod linear_system;
+mod mode;
 mod riccati;
 mod two_layer;
 
-pub use grouping::{group, smallest_group};
+pub use feedback::Feedback;
+pub use grouping::{TooManyDigits, group, require_digits, smallest_group};
+pub use image::{ImageError, ImageScratch, Images, Lattice, LatticeRange};
+pub use interval::Interval;
 pub use law::{Extent, FeedbackLaw, SteeringConstraint, decimal_gain, lower_layer_violation};
 pub use linear_system::LinearSystem;
+pub use mode::Mode;
 pub use riccati::{Lqr, RiccatiError, spectral_radius};
 pub use two_layer::TwoLayer;

@@ -2,6 +2,7 @@
 
 use super::{Certificate, Evidence, Inductive, ModelFile, Step};
 use super::{CertificateError, FIRST_LINE};
+use crate::files;
 use crate::model::{StateId, require_memory};
 use sha2::{Digest, Sha256};
 use std::path::Path;
@@ -14,7 +15,7 @@ use std::str::FromStr;
 pub fn read_file(path: &Path) -> Result<Certificate, CertificateError> {
     // The text, and at most 16 bytes for a state and an item that take 4 or more in it.
     require_memory("the certificate", std::fs::metadata(path)?.len().saturating_mul(5))?;
-    read(&std::fs::read(path)?)
+    read(&files::read(path)?)
 }
 
 /// Reads a certificate that [`write`](super::write()) has written.

@@ -1,7 +1,7 @@
 //! Why two sides cannot be compared.
 
+use crate::files::is_fault_of_input;
 use crate::formats::ImportError;
-use crate::formats::native::NativeError;
 use crate::property::{ParseError, PropertyError};
 use crate::solver::SolveError;
 use std::io;
@@ -100,10 +100,9 @@ pub enum CompareError {
 impl CompareError {
     /// Whether the system failed rather than the input.
     pub fn is_io(&self) -> bool {
-        let missing = |error: &io::Error| error.kind() == io::ErrorKind::NotFound;
         match self {
-            Self::Io { error, .. } | Self::Import(ImportError::Io { source: error, .. }) => !missing(error),
-            Self::Import(ImportError::Native { error: NativeError::Io(error), .. }) => !missing(error),
+            Self::Io { error, .. } => !is_fault_of_input(error),
+            Self::Import(error) => error.is_io(),
             _ => false,
         }
     }

@@ -1,11 +1,11 @@
 //! Finding out what a path holds.
 
 use super::{CompareError, PolicyFile, Record, RecordedResult, Reference, Sizes, Values};
+use crate::files;
 use crate::formats::Format;
 use crate::property::{Property, parse_properties};
 use serde::Deserialize;
 use serde_json::Value;
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -168,7 +168,7 @@ fn unusable(path: &Path, found: String, expected: &'static str) -> CompareError 
 }
 
 fn read(path: &Path) -> Result<String, CompareError> {
-    fs::read_to_string(path).map_err(|error| match error.kind() {
+    files::read_text(path).map_err(|error| match error.kind() {
         io::ErrorKind::InvalidData => unusable(path, "bytes that are not text".into(), "a text file"),
         _ => CompareError::Io { path: path.display().to_string(), error },
     })

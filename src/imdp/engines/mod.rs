@@ -31,13 +31,19 @@ pub use raised::raised;
 pub use storm::Storm;
 pub use strategy::Strategy;
 
+use crate::files::StagedDirectory;
 use std::io;
 use std::path::Path;
-use tempfile::TempDir;
 
-/// A directory for one run, gone with its value.
-fn scratch() -> io::Result<TempDir> {
-    tempfile::Builder::new().prefix("dynabs-").tempdir()
+/// A directory for one run, gone with its value; what killed processes left of theirs goes as well.
+fn scratch() -> io::Result<StagedDirectory> {
+    let directory = StagedDirectory::new(&std::env::temp_dir())?;
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        std::fs::set_permissions(directory.path(), std::fs::Permissions::from_mode(0o700))?;
+    }
+    Ok(directory)
 }
 
 /// Refuses to begin a file that will not fit.

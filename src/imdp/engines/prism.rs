@@ -4,6 +4,7 @@ use super::find::find;
 use super::process::{Ended, RunLimits, run};
 use super::values::parse_values;
 use super::{Engine, EngineAnswer, EngineFailure, EngineMissing, Question, Reply, Strategy, Subject};
+use crate::files::StagedDirectory;
 use crate::formats::prism::{TraWriter, write_lab, write_sta};
 use crate::model::{IntervalMdp, ModelKind};
 use crate::property::QueryKind;
@@ -11,7 +12,6 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use tempfile::TempDir;
 
 /// PRISM stops when no value changes by more than this fraction of itself in one sweep.
 pub(super) const EPSILON: f64 = 1e-12;
@@ -117,7 +117,7 @@ impl Engine for Prism {
 }
 
 /// A directory with the model's files under names that need no quoting.
-fn stage(subject: &Subject<'_>) -> Result<TempDir, (PathBuf, io::Error)> {
+fn stage(subject: &Subject<'_>) -> Result<StagedDirectory, (PathBuf, io::Error)> {
     let directory = super::scratch().map_err(|error| (std::env::temp_dir(), error))?;
     let at = |extension: &str| directory.path().join("model").with_extension(extension);
     match subject.files {

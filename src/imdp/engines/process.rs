@@ -2,7 +2,7 @@
 
 use super::EngineFailure;
 use super::process_group::Group;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::PathBuf;
 use std::process::{Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -56,7 +56,11 @@ pub(super) fn run(
         let command = PathBuf::from(command.get_program());
         EngineFailure::Start { command, error }
     })?;
-    let outputs = [group.stdout().map(collect), group.stderr().map(collect)];
+    let start_failed = |error| EngineFailure::Start { command: PathBuf::from(command.get_program()), error };
+    let outputs = [
+        group.stdout().map(collect).transpose().map_err(start_failed)?,
+        group.stderr().map(collect).transpose().map_err(start_failed)?,
+    ];
 
     let mut peak_mib = None;
     let (mut since, mut seen) = (start, progress());
@@ -99,8 +103,8 @@ pub(super) fn run(
 }
 
 /// Reads to the end in a thread of its own.
-fn collect(mut from: impl Read + Send + 'static) -> thread::JoinHandle<String> {
-    thread::spawn(move || {
+fn collect(mut from: impl Read + Send + 'static) -> io::Result<thread::JoinHandle<String>> {
+    thread::Builder::new().spawn(move || {
         let (mut kept, mut piece) = (Vec::new(), [0; 4096]);
         while let Ok(length @ 1..) = from.read(&mut piece) {
             kept.extend_from_slice(&piece[..length]);

@@ -4,6 +4,7 @@ use super::find::find;
 use super::process::{Ended, RunLimits, run};
 use super::values::decode_values;
 use super::{Engine, EngineAnswer, EngineFailure, EngineMissing, Question, Reply, Strategy, Subject};
+use crate::files::StagedDirectory;
 use crate::formats::umb::{Compression, UmbWriter};
 use crate::model::{ActionNames, IntervalMdp, Labels, ModelKind, Parts, StateSet, StateVariables};
 use crate::property::{Query, QueryKind};
@@ -14,7 +15,6 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
-use tempfile::TempDir;
 
 /// The program that asks Storm.
 const SCRIPT: &str = include_str!("../../../templates/storm.py");
@@ -134,7 +134,7 @@ impl Engine for Storm {
 }
 
 /// A directory with the script, the model and the questions.
-fn stage(model: &IntervalMdp, questions: &[Question]) -> Result<TempDir, EngineFailure> {
+fn stage(model: &IntervalMdp, questions: &[Question]) -> Result<StagedDirectory, EngineFailure> {
     let failed = |path: &Path, error| EngineFailure::Files { path: path.to_path_buf(), error };
     let directory = super::scratch().map_err(|error| failed(&std::env::temp_dir(), error))?;
     let at = |name: &str| directory.path().join(name);

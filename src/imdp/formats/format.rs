@@ -1,9 +1,9 @@
 //! The formats as such: which file is of which, and reading any of them.
 
-use super::import::{ImportError, Imported};
-use super::{drn, native, prism, umb};
+use super::import::{ImportError, Imported, without_packing};
+use super::{bmdp, drn, native, netcdf, prism, umb};
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A format of interval MDPs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -16,11 +16,20 @@ pub enum Format {
     Umb,
     /// The compact format of this program, .dynabs.
     Native,
+    /// All of PRISM's explicit files in one, .pexp; it is only read.
+    Combined,
+    /// The text format of bmdp-tool, .txt, which has no place for labels and variables.
+    Bmdp,
+    /// The NetCDF files of IntervalMDP.jl, .nc with .json beside, which have no place for labels and variables either.
+    Netcdf,
 }
 
 impl Format {
-    /// All formats.
+    /// The formats that keep all there is to a model.
     pub const ALL: [Self; 4] = [Self::Prism, Self::Drn, Self::Umb, Self::Native];
+
+    /// The formats of other programs, which keep part of it.
+    pub const OTHERS: [Self; 3] = [Self::Combined, Self::Bmdp, Self::Netcdf];
 
     /// The extension of its files; PRISM's transitions stand for all three.
     pub fn extension(self) -> &'static str {
@@ -29,13 +38,34 @@ impl Format {
             Self::Drn => "drn",
             Self::Umb => "umb",
             Self::Native => "dynabs",
+            Self::Combined => "pexp",
+            Self::Bmdp => "txt",
+            Self::Netcdf => "nc",
         }
     }
 
-    /// The format that the extension of a path tells.
+    /// The format that the extension of a path tells; `.gz` and `.xz` behind it do not count.
+    ///
+    /// PRISM's arguments `m.tra,sta,lab` and `m.all` mean its explicit files.
     pub fn of_path(path: &Path) -> Option<Self> {
-        let extension = path.extension()?.to_str()?;
-        Self::ALL.into_iter().find(|format| format.extension() == extension)
+        if prism::ExplicitFiles::listed(path).is_some() {
+            return Some(Self::Prism);
+        }
+        let unpacked = without_packing(path);
+        let extension = unpacked.extension()?.to_str()?;
+        Self::ALL.into_iter().chain(Self::OTHERS).find(|format| format.extension() == extension)
+    }
+
+    /// The files that a model is read from, the one with the transitions first.
+    pub fn files(self, path: &Path) -> Vec<PathBuf> {
+        match self {
+            Self::Prism => prism::ExplicitFiles::of(path).all(),
+            Self::Netcdf => {
+                let specification = Some(path.with_extension("json")).filter(|path| path.exists());
+                std::iter::once(path.to_owned()).chain(specification).collect()
+            }
+            _ => vec![path.to_owned()],
+        }
     }
 
     /// What reading a file amounts to, in the units that [`import`](Self::import) tells its progress in.
@@ -57,11 +87,14 @@ impl Format {
         progress: &mut (dyn FnMut(u64) + Send),
     ) -> Result<Imported, ImportError> {
         match self {
-            Self::Prism => prism::import_with_progress(path, None, None, progress),
+            Self::Prism => prism::import_files(&prism::ExplicitFiles::of(path), progress),
+            Self::Combined => prism::import_combined(path, progress),
+            Self::Bmdp => bmdp::import_with_progress(path, progress),
+            Self::Netcdf => netcdf::import(path),
             Self::Drn => drn::import_with_progress(path, progress),
             Self::Umb => umb::import_with_progress(path, progress),
             Self::Native => match native::read(path) {
-                Ok(model) => Ok(Imported { model, warnings: vec![] }),
+                Ok(model) => Ok(Imported { model, warnings: vec![], properties: String::new() }),
                 Err(error) => Err(ImportError::Native { path: path.to_owned(), error }),
             },
         }
@@ -75,6 +108,9 @@ impl fmt::Display for Format {
             Self::Drn => "drn",
             Self::Umb => "umb",
             Self::Native => "dynabs",
+            Self::Combined => "pexp",
+            Self::Bmdp => "bmdp",
+            Self::Netcdf => "netcdf",
         })
     }
 }

@@ -1,7 +1,7 @@
 //! SHA-256 of what is written, while it is written.
 
+use crate::files;
 use sha2::{Digest, Sha256};
-use std::fs::File;
 use std::io::{self, BufReader, Write};
 use std::path::Path;
 
@@ -35,10 +35,16 @@ impl<W: Write> Write for HashingWriter<W> {
             inner.write_all(buffer)?;
             hash.update(buffer);
         } else {
+            let mut hashed = false;
             std::thread::scope(|scope| {
-                scope.spawn(|| hash.update(buffer));
+                // Without another thread it only takes longer.
+                let thread = std::thread::Builder::new().spawn_scoped(scope, || hash.update(buffer));
+                hashed = thread.is_ok();
                 inner.write_all(buffer)
             })?;
+            if !hashed {
+                hash.update(buffer);
+            }
         }
         *bytes += buffer.len() as u64;
         Ok(buffer.len())
@@ -60,7 +66,7 @@ pub fn sha256_hex(bytes: &[u8]) -> String {
 /// What the system says when the file cannot be read.
 pub fn sha256_of_file(path: &Path) -> io::Result<String> {
     let mut writer = HashingWriter::new(io::sink());
-    io::copy(&mut BufReader::with_capacity(1 << 16, File::open(path)?), &mut writer)?;
+    io::copy(&mut BufReader::with_capacity(1 << 16, files::open(path)?.0), &mut writer)?;
     Ok(writer.finish().2)
 }
 

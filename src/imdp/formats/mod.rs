@@ -1,5 +1,6 @@
 //! File formats of interval MDPs.
 
+pub mod bmdp;
 pub mod drn;
 mod encoding;
 mod format;
@@ -7,6 +8,7 @@ mod hashing;
 mod import;
 mod names;
 pub mod native;
+pub mod netcdf;
 pub mod prism;
 pub mod row_states;
 pub mod umb;

@@ -1,7 +1,9 @@
 //! Writing a model in any format.
 
+use super::bmdp::BmdpWriter;
 use super::drn::DrnWriter;
 use super::names::NameError;
+use super::netcdf::{NetcdfError, NetcdfWriter};
 use super::prism::{MAX_COUNT, TraWriter, check_names, write_lab, write_sta};
 use super::umb::{Compression, UmbWriter};
 use super::{Format, native};
@@ -22,6 +24,8 @@ enum FormatWriter<'a> {
     Prism(TraWriter<'a>),
     Drn(DrnWriter<'a>),
     Umb(Box<UmbWriter<'a>>, Compression),
+    Bmdp(BmdpWriter<'a>),
+    Netcdf(NetcdfWriter<'a>),
 }
 
 /// Why a model cannot be written in a format.
@@ -30,6 +34,15 @@ pub enum WriteError {
     /// It has a name that the format cannot express.
     #[error(transparent)]
     Name(#[from] NameError),
+    /// It is beyond what IntervalMDP.jl reads.
+    #[error(transparent)]
+    Netcdf(#[from] NetcdfError),
+    /// The format is only read.
+    #[error("{format} is only read; expected prism, drn, umb, dynabs, bmdp or netcdf")]
+    ReadOnly {
+        /// The format.
+        format: Format,
+    },
     /// It is beyond what PRISM reads.
     #[error(
         "the model has {states} states, {choices} choices and {transitions} transitions; expected at most {MAX_COUNT} of \
@@ -65,6 +78,9 @@ impl<'a> ModelWriter<'a> {
             Format::Native => FormatWriter::Native,
             Format::Drn => FormatWriter::Drn(DrnWriter::new(model)?),
             Format::Umb => FormatWriter::Umb(Box::new(UmbWriter::new(model)?), compression),
+            Format::Bmdp => FormatWriter::Bmdp(BmdpWriter::new(model)),
+            Format::Netcdf => FormatWriter::Netcdf(NetcdfWriter::new(model)?),
+            Format::Combined => return Err(WriteError::ReadOnly { format }),
             Format::Prism => {
                 check_names(model)?;
                 let size = model.size();
@@ -88,13 +104,15 @@ impl<'a> ModelWriter<'a> {
             FormatWriter::Prism(_) => &["tra", "sta", "lab"],
             FormatWriter::Drn(_) => &["drn"],
             FormatWriter::Umb(..) => &["umb"],
+            FormatWriter::Bmdp(_) => &["txt"],
+            FormatWriter::Netcdf(_) => &["nc"],
         }
     }
 
     /// The size of the largest file in bytes, before compression; 0 if it is small anyway.
     pub fn bytes(&self) -> u64 {
         match &self.format {
-            FormatWriter::Native => 0,
+            FormatWriter::Native | FormatWriter::Bmdp(_) | FormatWriter::Netcdf(_) => 0,
             FormatWriter::Prism(writer) => writer.bytes(),
             FormatWriter::Drn(writer) => writer.bytes(),
             FormatWriter::Umb(writer, _) => writer.bytes(),
@@ -117,6 +135,8 @@ impl<'a> ModelWriter<'a> {
             (FormatWriter::Prism(_), "lab") => write_lab(self.model, out),
             (FormatWriter::Prism(writer), _) => writer.write(out, progress),
             (FormatWriter::Drn(writer), _) => writer.write(out, progress),
+            (FormatWriter::Bmdp(writer), _) => writer.write(out, progress),
+            (FormatWriter::Netcdf(writer), _) => writer.write(out),
             (FormatWriter::Umb(writer, compression), _) => writer.write(out, *compression, progress),
         }
     }

@@ -102,6 +102,23 @@ impl Choices {
         (0..rows as RowId).filter(used).collect()
     }
 
+    /// The number of choices of a state: 1 if it is absorbing, 0 if it is a deadlock.
+    pub fn num_choices_of(&self, state: StateId) -> usize {
+        let of_ranges: usize = self.ranges(state).iter().map(|range| range.len()).sum();
+        of_ranges + usize::from(self.is_absorbing(state))
+    }
+
+    /// By state, the number of choices of the states before it.
+    pub fn first_choices(&self) -> Vec<u64> {
+        let mut total = 0;
+        let of_state = |state| {
+            let first = total;
+            total += self.num_choices_of(state) as u64;
+            first
+        };
+        (0..self.num_states() as StateId).map(of_state).collect()
+    }
+
     /// Whether the only choice of a state is to stay.
     pub fn is_absorbing(&self, state: StateId) -> bool {
         self.absorbing.contains(state as usize)

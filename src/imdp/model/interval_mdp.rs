@@ -2,7 +2,10 @@
 
 use std::borrow::Cow;
 
-use super::{Choices, Labels, RowError, RowId, Rows, StateId, StateSet, StateVariables};
+use super::{
+    Choices, Labels, RewardError, RewardStructure, Rewards, RowError, RowId, Rows, StateId, StateSet,
+    StateVariables,
+};
 
 /// An interval MDP that is known to be well-formed.
 ///
@@ -11,6 +14,7 @@ use super::{Choices, Labels, RowError, RowId, Rows, StateId, StateSet, StateVari
 pub struct IntervalMdp {
     parts: Parts,
     size: Size,
+    rewards: Rewards,
 }
 
 /// What an [`IntervalMdp`] is made of.
@@ -200,7 +204,7 @@ impl IntervalMdp {
             return Err(ImdpError::NoInitialState);
         }
         let size = measure(&parts);
-        Ok(Self { parts, size })
+        Ok(Self { parts, size, rewards: Rewards::default() })
     }
 
     /// The same model with other rows.
@@ -218,6 +222,21 @@ impl IntervalMdp {
             labels: labels.clone(),
             variables: variables.clone(),
         })
+        .map(|model| Self { rewards: self.rewards.clone(), ..model })
+    }
+
+    /// The same model with these rewards.
+    ///
+    /// # Errors
+    /// [`RewardError`] if they are not those of such a model.
+    pub fn with_rewards(self, structures: Vec<RewardStructure>) -> Result<Self, RewardError> {
+        let rewards = Rewards::new(structures, self.size.states, self.size.choices)?;
+        Ok(Self { rewards, ..self })
+    }
+
+    /// What runs earn.
+    pub fn rewards(&self) -> &Rewards {
+        &self.rewards
     }
 
     /// Whether there is a policy at all.

@@ -1,26 +1,36 @@
 //! What is known of states besides their transitions: labels and variables.
 
 use super::{StateId, StateSet};
+use std::collections::HashMap;
 
 /// Named sets of states, in the order in which they were declared.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Labels {
     entries: Vec<(String, StateSet)>,
+    /// Where each name is in `entries`.
+    places: HashMap<String, usize>,
+}
+
+impl PartialEq for Labels {
+    fn eq(&self, other: &Self) -> bool {
+        self.entries == other.entries
+    }
 }
 
 impl Labels {
     /// Adds a label; one of the same name is replaced.
     pub fn insert(&mut self, name: impl Into<String>, states: StateSet) {
         let name = name.into();
-        match self.entries.iter_mut().find(|(existing, _)| *existing == name) {
-            Some(entry) => entry.1 = states,
-            None => self.entries.push((name, states)),
+        let next = self.entries.len();
+        match *self.places.entry(name.clone()).or_insert(next) {
+            place if place < next => self.entries[place].1 = states,
+            _ => self.entries.push((name, states)),
         }
     }
 
     /// The states with this label.
     pub fn get(&self, name: &str) -> Option<&StateSet> {
-        self.entries.iter().find(|(existing, _)| existing == name).map(|(_, states)| states)
+        self.places.get(name).map(|&place| &self.entries[place].1)
     }
 
     /// All labels.
@@ -48,20 +58,30 @@ pub struct StateVariable {
 }
 
 /// The variables of the states, in the order in which they were declared.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct StateVariables {
     variables: Vec<StateVariable>,
+    /// Where each name is in `variables`.
+    places: HashMap<String, usize>,
+}
+
+impl PartialEq for StateVariables {
+    fn eq(&self, other: &Self) -> bool {
+        self.variables == other.variables
+    }
 }
 
 impl StateVariables {
     /// Adds a variable.
     pub fn push(&mut self, name: impl Into<String>, values: VariableValues) {
-        self.variables.push(StateVariable { name: name.into(), values });
+        let name = name.into();
+        self.places.entry(name.clone()).or_insert(self.variables.len());
+        self.variables.push(StateVariable { name, values });
     }
 
     /// The variable of this name.
     pub fn get(&self, name: &str) -> Option<&StateVariable> {
-        self.variables.iter().find(|variable| variable.name == name)
+        self.places.get(name).map(|&place| &self.variables[place])
     }
 
     /// All variables.

@@ -9,6 +9,7 @@ mod interval_mdp;
 mod labels;
 mod memory;
 mod restrict;
+mod rewards;
 mod rows;
 
 pub use choices::{Choices, ChoicesBuilder, RowRange};
@@ -17,6 +18,7 @@ pub use interval_mdp::{ActionNames, ImdpError, IntervalMdp, ModelKind, Parts, Si
 pub use labels::{Labels, StateVariable, StateVariables, VariableValues};
 pub use memory::{GrowingMemory, MemoryError, MemoryLimit, available_memory, require_memory};
 pub use restrict::restrict;
+pub use rewards::{RewardError, RewardStructure, Rewards};
 pub use rows::{Row, RowError, Rows};
 
 /// A state of an interval MDP, numbered from 0.

@@ -36,6 +36,7 @@ impl StateFormula {
                 Ok(states)
             }
             Self::Iff(left, right) => Ok(same(left.evaluate(model)?, &right.evaluate(model)?)),
+            Self::Differ(left, right) => Ok(complement(same(left.evaluate(model)?, &right.evaluate(model)?))),
             Self::Compare(left, comparison, right) => compare(left, *comparison, right, model),
         }
     }

@@ -74,9 +74,11 @@ impl fmt::Display for PathFormula {
 /// with parentheses, `a U (b & c)` is the same to all.
 fn operand(formula: &StateFormula) -> String {
     match formula {
-        StateFormula::And(_) | StateFormula::Or(_) | StateFormula::Implies(..) | StateFormula::Iff(..) => {
-            format!("({formula})")
-        }
+        StateFormula::And(_)
+        | StateFormula::Or(_)
+        | StateFormula::Implies(..)
+        | StateFormula::Iff(..)
+        | StateFormula::Differ(..) => format!("({formula})"),
         _ => formula.to_string(),
     }
 }

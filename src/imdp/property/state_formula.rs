@@ -25,6 +25,8 @@ pub enum StateFormula {
     Implies(Box<Self>, Box<Self>),
     /// `a <=> b`: holds where both or neither do. PRISM's `a=b` of Boolean formulas is this.
     Iff(Box<Self>, Box<Self>),
+    /// `a != b` of formulas: holds where exactly one of them does.
+    Differ(Box<Self>, Box<Self>),
     /// Compares two integers; also `=` and `!=` of two Boolean variables, which look the same.
     Compare(IntegerExpression, Comparison, IntegerExpression),
 }
@@ -72,7 +74,7 @@ impl StateFormula {
             Self::Or(_) => OR,
             Self::And(_) => AND,
             // `!x=1` is `!(x=1)` in PRISM, but not to every reader; with parentheses it is to all.
-            Self::Not(_) | Self::Compare(..) => NOT,
+            Self::Not(_) | Self::Compare(..) | Self::Differ(..) => NOT,
             _ => ATOM,
         }
     }
@@ -110,6 +112,11 @@ impl StateFormula {
                 left.print(IFF, f)?;
                 f.write_str(" <=> ")?;
                 right.print(IFF + 1, f)
+            }
+            Self::Differ(left, right) => {
+                left.print(ATOM, f)?;
+                f.write_str(" != ")?;
+                right.print(ATOM, f)
             }
             // The blanks matter: `x<-1` is no comparison in PRISM, which has an operator `<-`.
             Self::Compare(left, comparison, right) => write!(f, "{left} {comparison} {right}"),

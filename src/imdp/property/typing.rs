@@ -144,8 +144,11 @@ impl Parser<'_> {
     fn comparison(&self, comparison: Comparison, left: &Node, right: &Node) -> Result<StateFormula> {
         let is_equality = matches!(comparison, Comparison::Equal | Comparison::NotEqual);
         if is_equality && (is_formula(left) || is_formula(right)) {
-            let iff = StateFormula::Iff(Box::new(self.formula(left)?), Box::new(self.formula(right)?));
-            return Ok(if comparison == Comparison::Equal { iff } else { StateFormula::negation(iff) });
+            let (left, right) = (Box::new(self.formula(left)?), Box::new(self.formula(right)?));
+            return Ok(match comparison {
+                Comparison::Equal => StateFormula::Iff(left, right),
+                _ => StateFormula::Differ(left, right),
+            });
         }
         Ok(StateFormula::Compare(self.integer(left)?, comparison, self.integer(right)?))
     }

@@ -2,6 +2,7 @@
 
 use crate::formats::import::{Cursor, Fault, ImportError, Lines};
 use crate::model::{ModelKind, StateId};
+use std::collections::HashSet;
 use std::io::BufRead;
 
 /// What the header says.
@@ -10,27 +11,41 @@ pub(super) struct Header {
     pub kind: ModelKind,
     pub states: u64,
     pub choices: Option<u64>,
+    /// The names of reward structures, in the order of their values.
+    pub rewards: Vec<String>,
     /// The labels that are declared in a comment.
     pub labels: Vec<String>,
     /// The variables that are declared in a comment.
     pub variables: Vec<String>,
 }
 
-/// Reads up to the line `@model`.
-pub(super) fn read_header<R: BufRead>(lines: &mut Lines<'_, R>) -> Result<Header, ImportError> {
-    let (mut kind, mut states, mut choices, mut intervals) = (None, None, None, false);
-    let (mut labels, mut variables) = (vec![], vec![]);
+/// The shortest line of a state with its line end, `state 0`.
+const SHORTEST_STATE: u64 = 8;
+
+/// Reads up to the line `@model` of a file of so many bytes.
+pub(super) fn read_header<R: BufRead>(lines: &mut Lines<'_, R>, bytes: u64) -> Result<Header, ImportError> {
+    let (mut kind, mut states, mut choices) = (None, None, None);
+    let (mut labels, mut variables, mut rewards) = (vec![], vec![], None);
     while let Some(mut cursor) = lines.next_or_blank()? {
         let entry = read_entry(&mut cursor).map_err(|fault| lines.place(*fault))?;
         match entry {
             Entry::Comment => {}
             Entry::Kind(found) => once(lines, "@type", &mut kind, found)?,
-            Entry::Intervals => intervals = true,
             Entry::Labels(names) => labels = names,
             Entry::Variables(names) => variables = names,
-            Entry::Section(name @ ("@parameters" | "@reward_models")) => refuse_content(lines, name)?,
+            Entry::Section("@parameters") => refuse_content(lines)?,
+            Entry::Section(name @ "@reward_models") => {
+                let names = read_reward_names(lines)?;
+                once(lines, name, &mut rewards, names)?;
+            }
             Entry::Section(name @ "@nr_states") => {
                 let count = read_count(lines, 1..=u64::from(StateId::MAX))?;
+                // A header that lies must not decide how much is allocated.
+                let fits = bytes / SHORTEST_STATE;
+                if count > fits {
+                    let expected = format!("at most {fits} states in a file of {bytes} bytes");
+                    return Err(lines.refuse(1, expected, count.to_string()));
+                }
                 once(lines, name, &mut states, count)?;
             }
             Entry::Section(name) => {
@@ -39,12 +54,10 @@ pub(super) fn read_header<R: BufRead>(lines: &mut Lines<'_, R>) -> Result<Header
             }
             Entry::Model => {
                 let missing = |what: &str| lines.refuse(1, format!("{what} before this line"), "none");
-                if !intervals {
-                    return Err(missing("`@value_type: double-interval`"));
-                }
                 let kind = kind.ok_or_else(|| missing("`@type: MDP` or `@type: DTMC`"))?;
                 let states = states.ok_or_else(|| missing("`@nr_states` and a number"))?;
-                return Ok(Header { kind, states, choices, labels, variables });
+                let rewards = rewards.unwrap_or_default();
+                return Ok(Header { kind, states, choices, rewards, labels, variables });
             }
         }
     }
@@ -54,12 +67,14 @@ pub(super) fn read_header<R: BufRead>(lines: &mut Lines<'_, R>) -> Result<Header
 enum Entry {
     Comment,
     Kind(ModelKind),
-    Intervals,
     Section(&'static str),
     Labels(Vec<String>),
     Variables(Vec<String>),
     Model,
 }
+
+/// The types of values: what they mean is told by each number itself.
+const VALUE_TYPES: [&str; 4] = ["double-interval", "rational-interval", "double", "rational"];
 
 fn read_entry(cursor: &mut Cursor<'_>) -> Result<Entry, Box<Fault>> {
     if cursor.skip(b"//! labels ") {
@@ -68,41 +83,41 @@ fn read_entry(cursor: &mut Cursor<'_>) -> Result<Entry, Box<Fault>> {
     if cursor.skip(b"//! variables ") {
         let start = cursor.offset();
         let names = names(cursor)?;
-        if (1..names.len()).any(|i| names[..i].contains(&names[i])) {
+        if has_twice(&names) {
             return Err(cursor.fault_at(start, "every variable once"));
         }
         return Ok(Entry::Variables(names));
     }
-    if cursor.skip(b"//") || cursor.at_line_end() {
+    cursor.skip_blanks();
+    if cursor.skip(b"//") || cursor.at_line_end() || cursor.at_end() {
         return Ok(Entry::Comment);
     }
-    if cursor.skip(b"@type: ") {
-        let kind = if cursor.skip(b"MDP") {
-            ModelKind::Imdp
-        } else if cursor.skip(b"DTMC") {
-            ModelKind::Idtmc
-        } else {
+    if cursor.skip(b"@type:") {
+        cursor.skip_blanks();
+        // PRISM writes the types of interval models as such, Storm writes MDP and says so of the values.
+        let kinds = [("IMDP", ModelKind::Imdp), ("IDTMC", ModelKind::Idtmc), ("MDP", ModelKind::Imdp)];
+        let mut kinds = kinds.into_iter().chain([("DTMC", ModelKind::Idtmc)]);
+        let Some((_, kind)) = kinds.find(|(name, _)| cursor.skip_word(name)) else {
             return Err(cursor.fault_here("MDP or DTMC, the types of model that are supported"));
         };
-        cursor.line_end("MDP or DTMC and the end of the line")?;
+        end_of_line(cursor, "MDP or DTMC and the end of the line")?;
         return Ok(Entry::Kind(kind));
     }
-    if cursor.skip(b"@value_type: ") {
-        if !cursor.skip(b"double-interval") && !cursor.skip(b"double") {
-            return Err(
-                cursor.fault_here("double-interval or double, the types of values that are supported")
-            );
+    if cursor.skip(b"@value_type:") {
+        cursor.skip_blanks();
+        if !VALUE_TYPES.iter().any(|name| cursor.skip_word(name)) {
+            return Err(cursor.fault_here(format!("one of {}", VALUE_TYPES.join(", "))));
         }
-        cursor.line_end("double-interval or double and the end of the line")?;
-        return Ok(Entry::Intervals);
+        end_of_line(cursor, "the end of the line")?;
+        return Ok(Entry::Comment);
     }
     if cursor.skip(b"@model") {
-        cursor.line_end("the end of the line")?;
+        end_of_line(cursor, "the end of the line")?;
         return Ok(Entry::Model);
     }
     for name in ["@parameters", "@reward_models", "@nr_states", "@nr_choices"] {
-        if cursor.skip(name.as_bytes()) {
-            cursor.line_end("the end of the line")?;
+        if cursor.skip_word(name) {
+            end_of_line(cursor, "the end of the line")?;
             return Ok(Entry::Section(name));
         }
     }
@@ -110,12 +125,24 @@ fn read_entry(cursor: &mut Cursor<'_>) -> Result<Entry, Box<Fault>> {
         .fault_here("@type, @value_type, @parameters, @reward_models, @nr_states, @nr_choices or @model"))
 }
 
+fn has_twice(names: &[String]) -> bool {
+    let mut seen = HashSet::new();
+    !names.iter().all(|name| seen.insert(name))
+}
+
+/// Passes over blanks at the end of a line.
+pub(super) fn end_of_line(cursor: &mut Cursor<'_>, expected: &str) -> Result<(), Box<Fault>> {
+    cursor.skip_blanks();
+    if cursor.at_line_end() || cursor.at_end() { Ok(()) } else { Err(cursor.fault_here(expected)) }
+}
+
 /// The names up to the end of the line, separated by blanks.
 fn names(cursor: &mut Cursor<'_>) -> Result<Vec<String>, Box<Fault>> {
-    let mut names = vec![read_name(cursor)?];
-    while !cursor.at_line_end() {
-        cursor.expect(b' ', "one blank and the next name")?;
+    let mut names = vec![];
+    cursor.skip_blanks();
+    while !cursor.at_line_end() && !cursor.at_end() {
         names.push(read_name(cursor)?);
+        cursor.skip_blanks();
     }
     Ok(names)
 }
@@ -125,7 +152,8 @@ pub(super) fn read_name(cursor: &mut Cursor<'_>) -> Result<String, Box<Fault>> {
     let start = cursor.offset();
     let quoted = cursor.skip(b"\"");
     let inside = cursor.offset();
-    while !cursor.at_line_end() && !cursor.at_end() && cursor.peek() != if quoted { b'"' } else { b' ' } {
+    let ends = |byte| if quoted { byte == b'"' } else { matches!(byte, b' ' | b'\t') };
+    while !cursor.at_line_end() && !cursor.at_end() && !ends(cursor.peek()) {
         cursor.advance(1);
     }
     let name = std::str::from_utf8(cursor.since(inside)).ok().filter(|name| !name.is_empty());
@@ -138,20 +166,22 @@ pub(super) fn read_name(cursor: &mut Cursor<'_>) -> Result<String, Box<Fault>> {
     Ok(name)
 }
 
-/// The line after a section that must be empty: what would stand there is not supported.
-fn refuse_content<R: BufRead>(lines: &mut Lines<'_, R>, section: &str) -> Result<(), ImportError> {
-    match lines.next_or_blank()? {
-        Some(mut cursor) => {
-            while cursor.skip(b" ") || cursor.skip(b"\t") {}
-            if cursor.at_line_end() {
-                return Ok(());
-            }
-            let fault = cursor
-                .fault_here(format!("an empty line: {} are not supported", &section[1..].replace('_', " ")));
-            Err(lines.place(*fault))
-        }
-        None => Ok(()),
-    }
+/// The line after `@reward_models`.
+fn read_reward_names<R: BufRead>(lines: &mut Lines<'_, R>) -> Result<Vec<String>, ImportError> {
+    let Some(mut cursor) = lines.next_or_blank()? else { return Ok(vec![]) };
+    let start = cursor.offset();
+    let names = names(&mut cursor).and_then(|names| match has_twice(&names) {
+        true => Err(cursor.fault_at(start, "every reward model once")),
+        false => Ok(names),
+    });
+    names.map_err(|fault| lines.place(*fault))
+}
+
+/// The line after `@parameters`, which must be empty: models with parameters have no values.
+fn refuse_content<R: BufRead>(lines: &mut Lines<'_, R>) -> Result<(), ImportError> {
+    let Some(mut cursor) = lines.next_or_blank()? else { return Ok(()) };
+    let outcome = end_of_line(&mut cursor, "an empty line: parameters are not supported");
+    outcome.map_err(|fault| lines.place(*fault))
 }
 
 fn read_count<R: BufRead>(
@@ -162,11 +192,13 @@ fn read_count<R: BufRead>(
     let Some(mut cursor) = lines.next_or_blank()? else {
         return Err(lines.refuse(1, EXPECTED, "the end of the file"));
     };
+    cursor.skip_blanks();
+    let start = cursor.offset();
     let outcome = cursor.unsigned(EXPECTED).and_then(|count| {
         if !range.contains(&count) {
-            return Err(cursor.fault_at(0, format!("between {} and {}", range.start(), range.end())));
+            return Err(cursor.fault_at(start, format!("between {} and {}", range.start(), range.end())));
         }
-        cursor.line_end("the end of the line").map(|()| count)
+        end_of_line(&mut cursor, "the end of the line").map(|()| count)
     });
     outcome.map_err(|fault| lines.place(*fault))
 }

@@ -34,7 +34,9 @@
 
 mod header;
 mod read;
+mod rewards;
 mod state_line;
+mod valuations;
 mod write;
 
 pub use read::{import, import_with_progress};

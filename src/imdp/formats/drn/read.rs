@@ -1,15 +1,14 @@
 //! Reading DRN, line by line.
 
 use super::UNNAMED;
-use super::header::{Header, read_header};
+use super::header::{Header, end_of_line, read_header};
 use super::state_line::{StateNotes, read_labels};
 use crate::formats::import::{
     Assembly, AssemblyError, Cursor, Expected, Fault, ImportError, Imported, Judgement, Lines, PendingRow,
-    Position, RowFault, Warning, describe, hash_row, read_interval, written_bounds,
+    Position, RowFault, Source, Warning, describe, hash_row, open, read_any_interval, written_bounds,
 };
-use crate::model::{ActionNames, Rows, StateId};
-use std::fs::File;
-use std::io::{BufRead, BufReader};
+use crate::model::{ActionNames, MemoryError, ModelKind, Rows, StateId};
+use std::io::BufRead;
 use std::path::Path;
 
 /// The shortest transition with its line end, `0 : 1`.
@@ -17,14 +16,15 @@ const SHORTEST_LINE: u64 = 6;
 
 /// Reads an interval MDP or interval DTMC from Storm's DRN format.
 ///
-/// What [`DrnWriter`](super::DrnWriter) writes, and what Storm does: `@type` MDP or DTMC with `@value_type`
-/// `double-interval` or `double`, `//` comments, labels with or without quotation marks. Numbers mean the
+/// What [`DrnWriter`](super::DrnWriter) writes, and what Storm and PRISM do, compressed or not: `@type` MDP or DTMC (IMDP
+/// or IDTMC), any `@value_type` of numbers or intervals or none, `//` comments, labels with or without quotation marks,
+/// rewards, values of variables in Storm's comments. Numbers mean the
 /// decimals as written; sums are judged as [`prism::import`](crate::formats::prism::import) does. Choices that are all called by
 /// their index have no names.
 ///
 /// # Errors
 /// [`ImportError`] with the position of the first thing that is not as the format wants it. Parameters,
-/// placeholders, reward models and other types of model are refused by name.
+/// placeholders and other types of model are refused by name.
 pub fn import(path: &Path) -> Result<Imported, ImportError> {
     import_with_progress(path, &mut |_| {})
 }
@@ -34,22 +34,17 @@ pub fn import(path: &Path) -> Result<Imported, ImportError> {
 /// # Errors
 /// Those of [`import`].
 pub fn import_with_progress(path: &Path, progress: &mut dyn FnMut(u64)) -> Result<Imported, ImportError> {
-    let io = |error| ImportError::io(path, error);
-    let file = File::open(path).map_err(io)?;
-    let metadata = file.metadata().map_err(io)?;
-    if !metadata.is_file() {
-        return Err(io(std::io::Error::other("it is not a regular file")));
-    }
-    let mut lines = Lines::new(path, BufReader::with_capacity(1 << 18, file));
-    let header = read_header(&mut lines)?;
+    let Source { reader, length } = open(path)?;
+    let mut lines = Lines::new(path, reader);
+    let header = read_header(&mut lines, length)?;
     // A header that lies must not decide how much is allocated.
-    let fits = metadata.len() / SHORTEST_LINE;
+    let fits = length / SHORTEST_LINE;
     let expected =
         Expected { states: header.states, choices: header.choices.unwrap_or(fits), transitions: fits };
     let mut body = Body {
         path,
         assembly: Assembly::new(expected)?,
-        notes: StateNotes::new(&header, fits),
+        notes: StateNotes::new(&header, fits)?,
         header,
         row: PendingRow::default(),
         rows: Rows::new(),
@@ -117,10 +112,14 @@ impl Body<'_> {
         if cursor.skip(b"//! ") {
             return Ok(self.notes.read(self.state, cursor)?);
         }
-        if cursor.skip(b"//") || cursor.at_line_end() {
+        cursor.skip_blanks();
+        if cursor.skip(b"//") {
+            self.notes.read_comment(self.state, cursor.rest().trim_ascii());
             return Ok(());
         }
-        while cursor.skip(b"\t") || cursor.skip(b" ") {}
+        if cursor.at_line_end() || cursor.at_end() {
+            return Ok(());
+        }
         if cursor.skip(b"state ") {
             return self.begin_state(cursor);
         }
@@ -143,8 +142,7 @@ impl Body<'_> {
         }
         let state = next as StateId;
         self.state = Some(state);
-        read_labels(cursor, state, &mut self.notes)?;
-        Ok(cursor.line_end("the end of the line")?)
+        read_labels(cursor, state, &mut self.notes)
     }
 
     fn begin_choice(&mut self, cursor: &mut Cursor<'_>) -> Result<(), LineError> {
@@ -154,7 +152,7 @@ impl Body<'_> {
             return Err(cursor.fault_at(0, "a state before its actions").into());
         }
         let start = cursor.offset();
-        while !cursor.at_line_end() && cursor.peek() != b' ' && !cursor.at_end() {
+        while !cursor.at_line_end() && !matches!(cursor.peek(), b' ' | b'\t') && !cursor.at_end() {
             cursor.advance(1);
         }
         let Ok(name) = std::str::from_utf8(cursor.since(start)) else {
@@ -166,10 +164,11 @@ impl Body<'_> {
         let is_index = name == number.to_string();
         let action = (name != UNNAMED).then(|| self.assembly.action(name));
         self.choice = Some(PendingChoice { number, line: cursor.line, action, is_index });
-        if cursor.skip(b" [") {
-            return Err(cursor.fault_at(cursor.offset() - 1, "no rewards, which are not supported").into());
+        cursor.skip_blanks();
+        if cursor.peek() == b'[' {
+            self.notes.rewards.of_choice(cursor, self.assembly.num_choices())?;
         }
-        Ok(cursor.line_end("the end of the line")?)
+        Ok(end_of_line(cursor, "the end of the line")?)
     }
 
     fn transition(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Box<Fault>> {
@@ -177,23 +176,26 @@ impl Body<'_> {
         let line = cursor.line;
         let start = cursor.offset();
         let successor = cursor.unsigned(EXPECTED)?;
-        if self.choice.is_none() {
-            return Err(cursor.fault_at(start, "an action before its transitions"));
+        match (&self.choice, self.header.kind, self.state) {
+            (Some(_), ..) => {}
+            // A chain has nothing to choose, so its one choice needs no name.
+            (None, ModelKind::Idtmc, Some(_)) => {
+                self.choice = Some(PendingChoice { number: 0, line, action: None, is_index: true });
+            }
+            _ => return Err(cursor.fault_at(start, "an action before its transitions")),
         }
         if successor >= self.header.states {
             let expected = format!("a destination below {}, the number of states", self.header.states);
             return Err(cursor.fault_at(start, expected));
         }
-        if !cursor.skip(b" : ") {
-            return Err(cursor.fault_here("` : ` and an interval"));
-        }
-        let interval_at = cursor.offset();
-        let (lower, upper) = read_interval(cursor, b" ")?;
-        self.written.extend_from_slice(cursor.since(interval_at));
+        cursor.skip_blanks();
+        cursor.expect(b':', "` : ` and an interval")?;
+        cursor.skip_blanks();
+        let (lower, upper) = read_any_interval(cursor, &mut self.written)?;
         self.written.push(b'\n');
         self.lines_of_row.push(line);
         self.row.push(successor as StateId, lower, upper);
-        cursor.line_end("the end of the line")
+        end_of_line(cursor, "the end of the line")
     }
 
     /// Ends the choice whose transitions have been read, if there is one.
@@ -261,6 +263,8 @@ impl Body<'_> {
         if self.indices {
             transitions.actions = ActionNames::None;
         }
+        let rewards = std::mem::take(&mut self.notes.rewards);
+        let (rewards, left_out) = rewards.finish(self.header.states as usize, choices);
         let (initial, labels, variables) = self.notes.finish();
         if initial.is_clear() {
             return Err(lines.refuse(1, "a state with the label init in some line", "none"));
@@ -271,14 +275,25 @@ impl Body<'_> {
         let mut imported = transitions.into_model(self.header.kind, initial, labels, variables)?;
         let widened = |(count, line)| Warning::Widened { count, first: Position::text(self.path, line, 1) };
         imported.warnings.splice(0..0, self.widened.map(widened));
+        if !left_out.is_empty() {
+            let what = format!("the reward model {}, which holds intervals,", left_out.join(", "));
+            imported.warnings.push(Warning::Ignored { path: self.path.to_owned(), what });
+        }
+        imported.model = imported.model.with_rewards(rewards)?;
         Ok(imported)
     }
 }
 
 /// What ends the reading of a line.
-enum LineError {
+pub(super) enum LineError {
     Fault(Box<Fault>),
     Import(ImportError),
+}
+
+impl From<MemoryError> for LineError {
+    fn from(error: MemoryError) -> Self {
+        Self::Import(error.into())
+    }
 }
 
 impl From<Box<Fault>> for LineError {

@@ -1,8 +1,11 @@
 //! What is said of a state besides its choices.
 
-use super::header::{Header, read_name};
+use super::header::{Header, end_of_line, read_name};
+use super::read::LineError;
+use super::rewards::RewardNotes;
+use super::valuations::Valuations;
 use crate::formats::import::{Cursor, Fault, read_variable_value};
-use crate::model::{Labels, StateId, StateSet, StateVariables, VariableValues};
+use crate::model::{Labels, MemoryError, StateId, StateSet, StateVariables, VariableValues, require_memory};
 use std::collections::HashMap;
 
 /// Labels, values of variables and deadlocks of the states so far.
@@ -21,11 +24,18 @@ pub(super) struct StateNotes {
     /// The last state that is marked as one without choices, and how many there are.
     deadlock: Option<StateId>,
     deadlocks: u64,
+    /// What is earned.
+    pub rewards: RewardNotes,
+    /// Values in comments as Storm writes them.
+    valuations: Valuations,
 }
 
 impl StateNotes {
     /// Nothing but what the header declares; sets have room for no more states than `fit` in the file.
-    pub(super) fn new(header: &Header, fit: u64) -> Self {
+    ///
+    /// # Errors
+    /// [`MemoryError`] if so many labels do not fit.
+    pub(super) fn new(header: &Header, fit: u64) -> Result<Self, MemoryError> {
         let mut notes = Self {
             states: header.states as usize,
             room: header.states.min(fit) as usize,
@@ -37,23 +47,29 @@ impl StateNotes {
             valued: 0,
             deadlock: None,
             deadlocks: 0,
+            rewards: RewardNotes::new(&header.rewards),
+            valuations: Valuations::default(),
         };
         for name in &header.labels {
-            notes.label(name.clone());
+            notes.label(name.clone())?;
         }
-        notes
+        Ok(notes)
     }
 
-    fn label(&mut self, name: String) -> &mut StateSet {
+    fn label(&mut self, name: String) -> Result<&mut StateSet, MemoryError> {
         if name == "init" {
-            return &mut self.initial;
+            return Ok(&mut self.initial);
         }
         let next = self.labels.len();
         let id = *self.ids.entry(name.clone()).or_insert(next);
         if id == next {
+            if next.is_power_of_two() {
+                let bytes = (self.states as u64).div_ceil(8).saturating_mul(2 * next as u64);
+                require_memory(format!("{} labels", 2 * next), bytes)?;
+            }
             self.labels.push((name, StateSet::new()));
         }
-        &mut self.labels[id].1
+        Ok(&mut self.labels[id].1)
     }
 
     /// Reads a comment that says something of `state`.
@@ -78,6 +94,13 @@ impl StateNotes {
         cursor.line_end("the end of the line")
     }
 
+    /// Reads a comment that may hold the values of Storm's variables in `state`.
+    pub(super) fn read_comment(&mut self, state: Option<StateId>, comment: &[u8]) {
+        if let Some(state) = state.filter(|_| comment.starts_with(b"[")) {
+            self.valuations.read(comment, state as usize);
+        }
+    }
+
     /// Whether a state is marked as one without choices.
     pub(super) fn is_deadlock(&self, state: StateId) -> bool {
         self.deadlock == Some(state)
@@ -96,6 +119,9 @@ impl StateNotes {
             set.grow(self.states);
             labels.insert(name, set);
         }
+        if let Some(variables) = self.valuations.finish(self.states).filter(|_| self.names.is_empty()) {
+            return (self.initial, labels, Ok(variables));
+        }
         let mut variables = StateVariables::default();
         if !self.names.is_empty() && self.valued != self.states {
             return (self.initial, labels, Err(self.valued));
@@ -110,25 +136,37 @@ impl StateNotes {
     }
 }
 
-/// Reads the labels of a state up to the end of the line.
+/// Reads the rewards and labels of a state up to the end of the line.
 pub(super) fn read_labels(
     cursor: &mut Cursor<'_>,
     state: StateId,
     notes: &mut StateNotes,
-) -> Result<(), Box<Fault>> {
-    while !cursor.at_line_end() {
-        cursor.expect(b' ', "one blank and a label")?;
+) -> Result<(), LineError> {
+    let mut first = true;
+    loop {
+        let blanks = cursor.skip_blanks();
+        if cursor.at_line_end() || cursor.at_end() {
+            return Ok(end_of_line(cursor, "the end of the line")?);
+        }
+        if !blanks {
+            return Err(cursor.fault_here("a blank and a label").into());
+        }
         match cursor.peek() {
-            b'[' => return Err(cursor.fault_here("no rewards, which are not supported")),
-            b'!' | b'{' => return Err(cursor.fault_here("a label: rates and observations are not supported")),
-            _ => {}
+            b'[' if first => {
+                notes.rewards.of_state(cursor, state as usize)?;
+                first = false;
+                continue;
+            }
+            b'!' | b'{' => {
+                return Err(cursor.fault_here("a label: rates and observations are not supported").into());
+            }
+            _ => first = false,
         }
         let start = cursor.offset();
-        let set = notes.label(read_name(cursor)?);
+        let set = notes.label(read_name(cursor)?)?;
         set.grow(state as usize + 1);
         if set.put(state as usize) {
-            return Err(cursor.fault_at(start, "every label of a state once"));
+            return Err(cursor.fault_at(start, "every label of a state once").into());
         }
     }
-    Ok(())
 }

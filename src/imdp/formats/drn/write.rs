@@ -1,6 +1,7 @@
 //! Writing DRN: streamed from shared rows, whose text is rendered once.
 
 use super::UNNAMED;
+use crate::files::interruption;
 use crate::formats::names::{NameError, NameRule, is_identifier};
 use crate::model::{ActionNames, IntervalMdp, ModelKind, RowId, StateId, StateSet};
 use crate::numeric::shortest_decimal;
@@ -102,7 +103,7 @@ impl<'a> DrnWriter<'a> {
                 return Ok(());
             }
             if progress.is_interrupted() {
-                return Err(io::Error::other("interrupted, nothing was written"));
+                return Err(interruption());
             }
             out.write_all(&text)?;
             progress.advance(text.len() as u64);

@@ -37,7 +37,7 @@ impl Transitions {
     ) -> Result<Imported, ImportError> {
         let Self { rows, choices, actions, warnings } = self;
         let model = IntervalMdp::new(Parts { kind, rows, choices, actions, initial, labels, variables })?;
-        Ok(Imported { model, warnings })
+        Ok(Imported { model, warnings, properties: String::new() })
     }
 }
 

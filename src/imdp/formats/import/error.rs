@@ -3,8 +3,9 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use crate::files::is_fault_of_input;
 use crate::formats::native::NativeError;
-use crate::model::{ImdpError, MemoryError, StateId};
+use crate::model::{ImdpError, MemoryError, RewardError, StateId};
 
 /// A place in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -45,6 +46,14 @@ impl Position {
         Self { path: path.to_owned(), place: Place::Member { name: name.to_owned(), entry } }
     }
 
+    /// Whether this is a later line of a text.
+    pub(in crate::formats) fn is_after(&self, other: &Self) -> bool {
+        match (&self.place, &other.place) {
+            (Place::Text { line, .. }, Place::Text { line: earlier, .. }) => line > earlier,
+            _ => false,
+        }
+    }
+
     /// The error of finding one thing here where another should be.
     pub(in crate::formats) fn refuse(
         self,
@@ -78,11 +87,13 @@ pub enum ImportError {
         /// What the system says.
         source: std::io::Error,
     },
-    /// There is no label file beside the transitions.
-    #[error("there is no {}: the initial states are read from a label file, name one", path.display())]
-    NoLabelFile {
-        /// Where it was looked for.
+    /// A compressed file is damaged.
+    #[error("{}: cannot be decompressed: {problem}", path.display())]
+    Damaged {
+        /// The file.
         path: PathBuf,
+        /// What is wrong.
+        problem: String,
     },
     /// The content is not what the format wants.
     #[error("{at}: expected {expected}, found {found}")]
@@ -108,12 +119,20 @@ pub enum ImportError {
     /// The parts do not make an interval MDP.
     #[error("the files do not describe an interval MDP: {0}")]
     Model(#[from] ImdpError),
+    /// The rewards are not those of the model.
+    #[error("the files do not describe rewards of the model: {0}")]
+    Rewards(#[from] RewardError),
 }
 
 impl ImportError {
     /// Whether the system failed, and not the file.
     pub fn is_io(&self) -> bool {
-        matches!(self, Self::Io { .. } | Self::Native { error: NativeError::Io(_), .. })
+        match self {
+            Self::Io { source, .. } | Self::Native { error: NativeError::Io(source), .. } => {
+                !is_fault_of_input(source)
+            }
+            _ => false,
+        }
     }
 
     /// Wraps an error of the system about a file.
@@ -142,6 +161,21 @@ pub enum Warning {
         /// The first of them.
         first: StateId,
     },
+    /// There is no label file: state 0 is the initial one, as it is for PRISM.
+    NoLabelFile {
+        /// Where it was looked for.
+        path: PathBuf,
+    },
+    /// The format names no initial state: it is state 0.
+    NoInitialState {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file is laid out in another way than PRISM lays out its own, which changes nothing.
+    Layout {
+        /// The first place where it is.
+        first: Position,
+    },
     /// Something that no property can ask about was passed over.
     Ignored {
         /// The file.
@@ -162,6 +196,18 @@ impl fmt::Display for Warning {
                 write!(
                     f,
                     "{count} state(s) have no choice and are treated as absorbing, the first is {first}"
+                )
+            }
+            Self::NoLabelFile { path } => {
+                write!(f, "there is no {}: the initial state is 0, and no state has a label", path.display())
+            }
+            Self::NoInitialState { path } => {
+                write!(f, "{}: the format names no initial state: it is 0", path.display())
+            }
+            Self::Layout { first } => {
+                write!(
+                    f,
+                    "{first}: not laid out as PRISM does it (blanks, order, names or numbers), read all the same"
                 )
             }
             Self::Ignored { path, what } => write!(f, "{}: {what} is not read", path.display()),

@@ -4,6 +4,7 @@ use super::decimal::read_decimal;
 use super::error::Fault;
 use super::exact_sum::ExactSum;
 use super::text::Cursor;
+use super::written::read_written_interval;
 
 /// Reads `[lower,upper]`, or a plain number that is both bounds; `blank` may follow the comma.
 ///
@@ -34,6 +35,37 @@ pub(in crate::formats) fn read_interval(
     }
     cursor.expect(b']', "`]`")?;
     Ok((lower, upper))
+}
+
+/// Reads an interval or a number in any layout that [`read_written_interval`] knows, and appends it to `written` in the one
+/// that [`read_interval`] does.
+pub(in crate::formats) fn read_any_interval(
+    cursor: &mut Cursor<'_>,
+    written: &mut Vec<u8>,
+) -> Result<(f64, f64), Box<Fault>> {
+    let start = cursor.offset();
+    let strict = read_interval(cursor, b" ");
+    if matches!(cursor.peek(), b' ' | b'\t' | b'\r' | b'\n') && strict.is_ok() {
+        written.extend_from_slice(cursor.since(start));
+        return strict;
+    }
+    cursor.rewind(start);
+    let (in_brackets, rest) = (cursor.peek() == b'[', cursor.rest());
+    let ends = |byte: &u8| if in_brackets { *byte == b']' } else { byte.is_ascii_whitespace() };
+    let end = rest.iter().position(ends).map_or(rest.len(), |end| end + usize::from(in_brackets));
+    let Some((lower, upper)) = read_written_interval(&rest[..end]) else {
+        return Err(strict
+            .err()
+            .unwrap_or_else(|| cursor.fault_here("a blank or the end of the line after it")));
+    };
+    let text = format!("[{lower},{upper}]");
+    let bounds = read_interval(&mut Cursor::new(text.as_bytes(), 0), b"");
+    // In the layout that everybody knows, the place of a mistake is known as well.
+    let bounds =
+        bounds.map_err(|fault| strict.err().unwrap_or_else(|| cursor.fault_at(start, fault.expected)))?;
+    written.extend_from_slice(text.as_bytes());
+    cursor.advance(end);
+    Ok(bounds)
 }
 
 #[cold]

@@ -25,6 +25,11 @@ impl<'a, R: BufRead> Lines<'a, R> {
         Self { path, source, buffer: vec![], lines_read: 0, bytes_read: 0 }
     }
 
+    /// Reads from `source`, the part of `path` that follows `lines` lines.
+    pub(crate) fn starting_at(path: &'a Path, source: R, lines: u64) -> Self {
+        Self { lines_read: lines, ..Self::new(path, source) }
+    }
+
     /// The number of lines read so far.
     pub(crate) fn lines_read(&self) -> u64 {
         self.lines_read

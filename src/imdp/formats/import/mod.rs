@@ -6,23 +6,32 @@ mod bounds;
 mod decimal;
 mod error;
 mod exact_sum;
+mod fields;
 mod interval;
 mod lines;
+mod loose;
 mod pending_row;
+mod reward;
 mod row_table;
+mod source;
 mod text;
 mod variables;
+mod written;
 
 pub(in crate::formats) use assembly::{Assembly, AssemblyError, Expected, Transitions};
 pub(in crate::formats) use bounds::{Judgement, written_bounds};
 pub(in crate::formats) use error::Fault;
 pub use error::{ImportError, Place, Position, Warning};
-pub(in crate::formats) use interval::read_interval;
+pub(in crate::formats) use fields::Fields;
+pub(in crate::formats) use interval::{read_any_interval, read_interval};
 pub(in crate::formats) use lines::Lines;
+pub(in crate::formats) use loose::{LooseTransitions, TransitionHeader};
 pub(in crate::formats) use pending_row::{PendingRow, RowFault};
+pub(in crate::formats) use reward::{RewardValue, read_reward};
 pub(in crate::formats) use row_table::hash_row;
+pub(in crate::formats) use source::{Packing, Source, open, without_packing};
 pub(in crate::formats) use text::{Cursor, counted, describe};
-pub(in crate::formats) use variables::read_variable_value;
+pub(in crate::formats) use variables::{Value, read_value, read_variable_value};
 
 use crate::model::IntervalMdp;
 
@@ -33,4 +42,6 @@ pub struct Imported {
     pub model: IntervalMdp,
     /// What was accepted although it deserves a look, at most one warning of each kind.
     pub warnings: Vec<Warning>,
+    /// What the files ask, in PRISM's syntax; empty if they ask nothing.
+    pub properties: String,
 }

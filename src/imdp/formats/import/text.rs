@@ -66,6 +66,28 @@ impl<'a> Cursor<'a> {
         matches
     }
 
+    /// Skips blanks within the line; whether there were any.
+    #[inline]
+    pub(crate) fn skip_blanks(&mut self) -> bool {
+        let start = self.at;
+        while matches!(self.peek(), b' ' | b'\t') && !self.at_end() {
+            self.at += 1;
+        }
+        self.at > start
+    }
+
+    /// Skips a word if it comes next as a whole.
+    pub(crate) fn skip_word(&mut self, word: &str) -> bool {
+        let after = self.rest().get(word.len());
+        let ends = after.is_none_or(|byte| byte.is_ascii_whitespace());
+        ends && self.skip(word.as_bytes())
+    }
+
+    /// Goes back to an offset in the current line.
+    pub(crate) fn rewind(&mut self, offset: usize) {
+        self.at = offset;
+    }
+
     /// Reads one certain byte.
     #[inline]
     pub(crate) fn expect(&mut self, byte: u8, expected: &str) -> Result<(), Box<Fault>> {

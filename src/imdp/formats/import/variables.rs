@@ -39,16 +39,47 @@ fn push_value(cursor: &mut Cursor<'_>, state: usize, column: &mut VariableValues
                 return Err(cursor.fault_here("`true` or `false`"));
             }
         }
-        VariableValues::Int(values) => {
-            let start = cursor.offset();
-            let negative = cursor.skip(b"-");
-            let magnitude = cursor.unsigned("an integer")?;
-            let value =
-                i64::try_from(magnitude).map_or(i64::MAX, |value| if negative { -value } else { value });
-            let value = i32::try_from(value)
-                .map_err(|_| cursor.fault_at(start, format!("between {} and {}", i32::MIN, i32::MAX)))?;
-            values.push(value);
-        }
+        VariableValues::Int(values) => values.push(read_integer(cursor)?),
     }
     Ok(())
+}
+
+fn read_integer(cursor: &mut Cursor<'_>) -> Result<i32, Box<Fault>> {
+    let start = cursor.offset();
+    let negative = cursor.skip(b"-");
+    let magnitude = cursor.unsigned("an integer")?;
+    let value = i64::try_from(magnitude).map_or(i64::MAX, |value| if negative { -value } else { value });
+    i32::try_from(value).map_err(|_| cursor.fault_at(start, format!("between {} and {}", i32::MIN, i32::MAX)))
+}
+
+/// The value of a variable in one state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::formats) enum Value {
+    Bool(bool),
+    Int(i32),
+    /// Something that no formula can ask about, such as a number with a fraction.
+    Other,
+}
+
+/// Reads a value up to a comma, a blank or a closing parenthesis; Python's `True` and `False` are Boolean too.
+pub(in crate::formats) fn read_value(cursor: &mut Cursor<'_>) -> Result<Value, Box<Fault>> {
+    let start = cursor.offset();
+    while !matches!(cursor.peek(), b',' | b')' | b' ' | b'\t' | b'\r' | b'\n') {
+        cursor.advance(1);
+    }
+    let text = cursor.since(start);
+    Ok(match text {
+        b"" => return Err(cursor.fault_here("a value")),
+        b"true" | b"True" => Value::Bool(true),
+        b"false" | b"False" => Value::Bool(false),
+        _ => {
+            let (digits, line) = (text.strip_prefix(b"-").unwrap_or(text), [text, b"\n"].concat());
+            if digits.iter().all(u8::is_ascii_digit) {
+                let outcome = read_integer(&mut Cursor::new(&line, 0));
+                Value::Int(outcome.map_err(|fault| cursor.fault_at(start, fault.expected))?)
+            } else {
+                Value::Other
+            }
+        }
+    })
 }

@@ -1,11 +1,11 @@
 //! Reading a model back, trusting nothing.
 
-use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::Path;
 
 use super::Section;
 use super::sections::Sections;
+use crate::files;
 use crate::model::{
     ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, Labels, MemoryError, ModelKind, Parts,
     RowId, RowRange, Rows, StateId, StateSet, StateVariables, VariableValues, require_memory,
@@ -56,8 +56,7 @@ pub enum NativeError {
 /// # Errors
 /// [`NativeError`]; any truncation and any changed byte is noticed.
 pub fn read(path: &Path) -> Result<IntervalMdp, NativeError> {
-    let file = File::open(path)?;
-    let length = file.metadata()?.len();
+    let (file, length) = files::open(path)?;
     read_from(BufReader::with_capacity(1 << 18, file), length)
 }
 

@@ -1,24 +1,24 @@
 //! Writing a model as it is, section by section.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
 use super::{MAGIC, Section, VERSION};
+use crate::files::Outputs;
 use crate::model::{
     ActionNames, IntervalMdp, Labels, ModelKind, StateId, StateSet, StateVariables, VariableValues,
 };
 
-/// Writes a model to a new file, `model.dynabs` by custom.
+/// Writes a model to a file, `model.dynabs` by custom, which appears or is replaced as a whole.
 ///
 /// # Errors
 /// What the system says when the file cannot be created or written.
 pub fn write_file(model: &IntervalMdp, path: &Path) -> io::Result<()> {
-    let mut out = BufWriter::with_capacity(1 << 18, File::create(path)?);
-    write(model, &mut out)?;
-    out.into_inner()?.sync_all()
+    let mut files = Outputs::default();
+    files.write(path, |out| write(model, out))?;
+    files.commit()
 }
 
 /// Writes a model in the format of [`super`]; equal models give equal bytes.

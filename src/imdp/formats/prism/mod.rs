@@ -8,5 +8,5 @@
 mod read;
 mod write;
 
-pub use read::{import, import_with_progress};
+pub use read::{ExplicitFiles, import, import_combined, import_files, import_with_progress};
 pub use write::{MAX_COUNT, RAISED_LOWER_BOUND, TraWriter, check_names, write_lab, write_sta};

@@ -83,6 +83,7 @@ fn in_rows(formula: &StateFormula) -> Option<bool> {
             _ => None,
         },
         StateFormula::Iff(left, right) => Some(in_rows(left)? == in_rows(right)?),
+        StateFormula::Differ(left, right) => Some(in_rows(left)? != in_rows(right)?),
     }
 }
 

@@ -32,6 +32,8 @@ pub(super) const BRANCH_ACTIONS: ActionMembers = ActionMembers {
 
 /// The group of annotations that are labels.
 pub(super) const APS: &str = "aps";
+/// The group of annotations that are rewards.
+pub(super) const REWARDS: &str = "rewards";
 /// The group of our own annotations.
 pub(super) const OWN: &str = "dynabs";
 /// Which of them marks the states without choices.

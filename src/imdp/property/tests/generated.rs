@@ -32,7 +32,7 @@ fn comparison() -> impl Strategy<Value = Comparison> {
 }
 
 fn formula() -> impl Strategy<Value = StateFormula> {
-    use StateFormula::{And, Compare, False, Iff, Implies, Label, Not, Or, True, Variable};
+    use StateFormula::{And, Compare, Differ, False, Iff, Implies, Label, Not, Or, True, Variable};
     let leaf = prop_oneof![
         Just(True),
         Just(False),
@@ -48,6 +48,8 @@ fn formula() -> impl Strategy<Value = StateFormula> {
             prop::collection::vec(inner.clone(), 2..4).prop_map(Or),
             pair().prop_map(|(left, right)| Implies(left, right)),
             pair().prop_map(|(left, right)| Iff(left, right)),
+            // Two variables are compared as integers.
+            (inner.clone(), name()).prop_map(|(left, name)| Differ(Box::new(left), Box::new(Label(name)))),
         ]
     })
 }

@@ -4,28 +4,16 @@ use std::path::Path;
 
 use super::parse_chunk::{ParsedChoice, ParsedChunk};
 use crate::formats::import::{
-    Assembly, AssemblyError, Expected, Fault, ImportError, Position, Transitions, Warning, counted,
+    Assembly, AssemblyError, Expected, Fault, ImportError, Position, TransitionHeader, Transitions, Warning,
+    counted,
 };
 use crate::model::StateId;
-
-/// The numbers of a header.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Header {
-    /// The number of states.
-    pub states: u64,
-    /// The number of choices; interval DTMCs do not give it.
-    pub choices: Option<u64>,
-    /// The number of transitions.
-    pub transitions: u64,
-    /// The line of the header, from 0.
-    pub line: u64,
-}
 
 /// Appends chunks and holds them against the header.
 #[derive(Debug)]
 pub(super) struct Assembler<'a> {
     path: &'a Path,
-    header: Header,
+    header: TransitionHeader,
     assembly: Assembly,
     lines_before: u64,
     /// The last state that has choices so far, and the number of its last one.
@@ -38,8 +26,8 @@ impl<'a> Assembler<'a> {
     ///
     /// # Errors
     /// [`ImportError::Memory`] if so many states do not fit.
-    pub(super) fn new(path: &'a Path, header: Header) -> Result<Self, ImportError> {
-        let Header { states, choices, transitions, .. } = header;
+    pub(super) fn new(path: &'a Path, header: TransitionHeader) -> Result<Self, ImportError> {
+        let TransitionHeader { states, choices, transitions, .. } = header;
         let expected = Expected { states, choices: choices.unwrap_or(states), transitions };
         Ok(Self {
             path,

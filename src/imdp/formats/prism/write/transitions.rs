@@ -1,5 +1,6 @@
 //! The `.tra` file: every transition of every choice, streamed from shared rows.
 
+use crate::files::interruption;
 use crate::model::{ActionNames, IntervalMdp, ModelKind, RowId, StateId};
 use crate::numeric::shortest_decimal;
 use crate::progress::Progress;
@@ -125,7 +126,7 @@ impl<'a> TraWriter<'a> {
         let (filled, to_write) = mpsc::sync_channel::<Vec<u8>>(CHUNKS_IN_FLIGHT);
         let (emptied, to_fill) = mpsc::channel::<Vec<u8>>();
         std::thread::scope(|scope| {
-            let disk = scope.spawn(move || -> io::Result<()> {
+            let disk = std::thread::Builder::new().spawn_scoped(scope, move || -> io::Result<()> {
                 for piece in to_write {
                     out.write_all(&piece)?;
                     progress.advance(piece.len() as u64);
@@ -133,10 +134,10 @@ impl<'a> TraWriter<'a> {
                     let _ = emptied.send(piece);
                 }
                 Ok(())
-            });
+            })?;
             for batch in self.chunks.chunks(CHUNKS_IN_FLIGHT / 2) {
                 if progress.is_interrupted() {
-                    return Err(io::Error::other("interrupted, nothing was written"));
+                    return Err(interruption());
                 }
                 let mut pieces: Vec<Vec<u8>> =
                     batch.iter().map(|_| to_fill.try_recv().unwrap_or_default()).collect();

@@ -6,6 +6,8 @@ use super::array::{Array, Offsets};
 use super::index::Index;
 use crate::formats::import::{Assembly, ImportError, Position};
 use crate::model::{ModelKind, require_memory};
+use std::borrow::Cow;
+use std::collections::HashMap;
 use std::io::Read;
 
 /// What choices are called, as it is read along with them.
@@ -14,14 +16,33 @@ pub(super) struct Actions {
     values: Option<Array>,
     /// The names belong to branches: all branches of a choice have the same.
     of_branches: bool,
-    names: Vec<Name>,
+    names: Names,
+    /// The ids in the model of the names that have occurred.
+    ids: HashMap<u32, u32>,
 }
 
-#[derive(Clone)]
-struct Name {
-    text: String,
-    /// The id in the model, once it is known to occur.
-    id: Option<u32>,
+/// A list of names.
+enum Names {
+    /// They are given.
+    Given(Vec<String>),
+    /// So many that are not given: they are called `_1`, `_2`, … as PRISM does.
+    Counted(u64),
+}
+
+impl Names {
+    fn len(&self) -> u64 {
+        match self {
+            Self::Given(names) => names.len() as u64,
+            Self::Counted(count) => *count,
+        }
+    }
+
+    fn text(&self, name: u32) -> Cow<'_, str> {
+        match self {
+            Self::Given(names) => names[name as usize].as_str().into(),
+            Self::Counted(_) => format!("_{}", u64::from(name) + 1).into(),
+        }
+    }
 }
 
 impl Actions {
@@ -44,7 +65,8 @@ impl Actions {
             return Ok(None);
         }
         let names = read_names(archive, &members, count)?;
-        Ok(Some(Self { values: Array::open(archive, members.values, 4, entries)?, of_branches, names }))
+        let values = Array::open(archive, members.values, 4, entries)?;
+        Ok(Some(Self { values, of_branches, names, ids: HashMap::new() }))
     }
 
     /// The id of the name of the next choice, which has `branches` branches; none if it has no name.
@@ -57,7 +79,7 @@ impl Actions {
         if let Some(values) = &mut self.values {
             for branch in 0..if self.of_branches { branches } else { 1 } {
                 let found = u32::from_le_bytes(values.next()?);
-                if found as usize >= self.names.len() {
+                if u64::from(found) >= self.names.len() {
                     let expected = format!("a name below {}, the number of names", self.names.len());
                     return Err(values.refuse(expected, found.to_string()));
                 }
@@ -68,23 +90,27 @@ impl Actions {
                 name = found;
             }
         }
-        let Name { text, id } = &mut self.names[name as usize];
-        if id.is_none() && !text.is_empty() {
-            *id = Some(assembly.action(text));
+        if let Some(&id) = self.ids.get(&name) {
+            return Ok(Some(id));
         }
-        Ok(*id)
+        let text = self.names.text(name);
+        if text.is_empty() {
+            return Ok(None);
+        }
+        let id = assembly.action(&text);
+        self.ids.insert(name, id);
+        Ok(Some(id))
     }
 }
 
-/// Reads a list of names; without one, they are called `_1`, `_2`, … as PRISM does.
-fn read_names(archive: &Archive, members: &ActionMembers, count: u64) -> Result<Vec<Name>, ImportError> {
+/// Reads a list of names.
+fn read_names(archive: &Archive, members: &ActionMembers, count: u64) -> Result<Names, ImportError> {
     let at = |name: &str, entry| Position::member(archive.path(), name, entry);
     let Some(bytes) = archive.bytes(members.strings) else {
         if count > u64::from(u32::MAX) {
             return Err(at(members.strings, None).refuse("names of actions", "no such member"));
         }
-        require_memory(format!("{count} names"), count.saturating_mul(48))?;
-        return Ok((1..=count).map(|i| Name { text: format!("_{i}"), id: None }).collect());
+        return Ok(Names::Counted(count));
     };
     if archive.bytes(members.mapping).is_none() {
         return Err(at(members.mapping, None).refuse("where each name starts", "no such member"));
@@ -105,8 +131,8 @@ fn read_names(archive: &Archive, members: &ActionMembers, count: u64) -> Result<
                     at(members.strings, Some(range.start)).refuse("a name in UTF-8", "something else")
                 );
             };
-            names.push(Name { text, id: None });
+            names.push(text);
         }
     }
-    Ok(names)
+    Ok(Names::Given(names))
 }

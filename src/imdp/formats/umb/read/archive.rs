@@ -1,9 +1,8 @@
 //! The members of a tar archive, each of which can be read on its own.
 
-use crate::formats::import::{ImportError, Position};
-use flate2::read::MultiGzDecoder;
+use crate::files;
+use crate::formats::import::{ImportError, Packing, Position};
 use std::collections::HashMap;
-use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -15,11 +14,14 @@ const BUFFER: usize = 1 << 17;
 const KEPT: u64 = 64 << 20;
 const SMALL: u64 = 16 << 20;
 
+/// How long what tar says ahead of a member may be, its name above all.
+const LONGEST_NAME: u64 = 1 << 16;
+
 /// A UMB archive: where each member is.
 #[derive(Debug)]
 pub(super) struct Archive {
     path: PathBuf,
-    gzip: bool,
+    packing: Packing,
     members: HashMap<String, Member>,
 }
 
@@ -32,6 +34,37 @@ struct Member {
     content: Option<Arc<[u8]>>,
 }
 
+/// Whether an entry is no member, but says something of the next one.
+fn is_extension(kind: tar::EntryType) -> bool {
+    kind.is_gnu_longname()
+        || kind.is_gnu_longlink()
+        || kind.is_pax_local_extensions()
+        || kind.is_pax_global_extensions()
+}
+
+/// The name of the next member, if an entry gives it.
+fn name_ahead(entry: &mut tar::Entry<'_, impl Read>) -> io::Result<Option<Vec<u8>>> {
+    let kind = entry.header().entry_type();
+    let mut content = vec![];
+    entry.read_to_end(&mut content)?;
+    if kind.is_gnu_longname() {
+        content.truncate(content.iter().position(|&byte| byte == 0).unwrap_or(content.len()));
+        return Ok(Some(content));
+    }
+    let mut name = None;
+    if kind.is_pax_local_extensions() {
+        for record in tar::PaxExtensions::new(&content) {
+            let record = record?;
+            match record.key_bytes() {
+                b"path" => name = Some(record.value_bytes().to_owned()),
+                b"size" => return Err(io::Error::other("a member of 8 GiB or more, as PAX writes its size")),
+                _ => {}
+            }
+        }
+    }
+    Ok(name)
+}
+
 /// One member, read from its start.
 pub(super) type MemberReader = BufReader<Box<dyn Read>>;
 
@@ -42,30 +75,13 @@ impl Archive {
     /// [`ImportError`] if the archive is damaged or cut short, or holds a member twice.
     pub(super) fn open(path: &Path) -> Result<Self, ImportError> {
         let io = |error| ImportError::io(path, error);
-        let mut file = File::open(path).map_err(io)?;
-        let metadata = file.metadata().map_err(io)?;
-        if !metadata.is_file() {
-            return Err(io(io::Error::other("it is not a regular file")));
-        }
-        let mut magic = vec![];
-        file.by_ref().take(6).read_to_end(&mut magic).map_err(io)?;
-        file.rewind().map_err(io)?;
-        if magic.starts_with(b"\xfd7zXZ") {
-            return Err(Self::refuse(
-                path,
-                "a tar archive, as it is or compressed with gzip",
-                "compression by xz",
-            ));
-        }
-        let gzip = magic.starts_with(&[0x1f, 0x8b]);
-        let mut archive = Self { path: path.to_owned(), gzip, members: HashMap::new() };
-        let source = BufReader::with_capacity(BUFFER, file);
-        if gzip {
-            let mut rest = archive.list(MultiGzDecoder::new(source))?;
+        let (mut file, _) = files::open(path).map_err(io)?;
+        let packing = Packing::of(&mut file).map_err(io)?;
+        let mut archive = Self { path: path.to_owned(), packing, members: HashMap::new() };
+        let mut rest = archive.list(BufReader::with_capacity(BUFFER, packing.unpack(file)))?;
+        if packing != Packing::None {
             // Only at its end does the checksum tell whether all of it was right.
             io::copy(&mut rest, &mut io::sink()).map_err(|error| Self::damaged(path, &error))?;
-        } else {
-            archive.list(source)?;
         }
         Ok(archive)
     }
@@ -74,9 +90,20 @@ impl Archive {
         let damaged = |error| Self::damaged(&self.path, &error);
         let mut tar = tar::Archive::new(source);
         let (mut end, mut kept) = (0, 0);
-        for entry in tar.entries().map_err(damaged)? {
+        let mut long_name = None;
+        // Raw: otherwise a name is read as a whole, however long it is.
+        for entry in tar.entries().map_err(damaged)?.raw(true) {
             let mut entry = entry.map_err(damaged)?;
-            let name = String::from_utf8_lossy(&entry.path_bytes()).into_owned();
+            if is_extension(entry.header().entry_type()) {
+                if entry.size() > LONGEST_NAME {
+                    let found = format!("one of {} bytes", entry.size());
+                    return Err(Self::refuse(&self.path, "names of members that are shorter", found));
+                }
+                long_name = name_ahead(&mut entry).map_err(damaged)?.or(long_name);
+                continue;
+            }
+            let name = long_name.take().unwrap_or_else(|| entry.path_bytes().into_owned());
+            let name = String::from_utf8_lossy(&name);
             let name = name.strip_prefix("./").unwrap_or(&name).to_owned();
             let mut member = Member { offset: entry.raw_file_position(), bytes: entry.size(), content: None };
             if member.offset.checked_add(member.bytes).is_none() || member.offset < end {
@@ -95,7 +122,7 @@ impl Archive {
                     return Err(Self::refuse(&self.path, "regular files and directories", found));
                 }
             }
-            if self.gzip && member.bytes <= SMALL && kept + member.bytes <= KEPT {
+            if self.packing != Packing::None && member.bytes <= SMALL && kept + member.bytes <= KEPT {
                 let mut content = vec![];
                 entry.read_to_end(&mut content).map_err(damaged)?;
                 if content.len() as u64 == member.bytes {
@@ -114,7 +141,9 @@ impl Archive {
         // What the system says of the disk comes with a code, what is wrong with the content does not.
         match error.raw_os_error() {
             Some(code) => ImportError::io(path, io::Error::from_raw_os_error(code)),
-            None => Self::refuse(path, "a tar archive, as it is or compressed with gzip", error.to_string()),
+            None => {
+                Self::refuse(path, "a tar archive, as it is or compressed with gzip or xz", error.to_string())
+            }
         }
     }
 
@@ -145,15 +174,15 @@ impl Archive {
             return Ok(Some(BufReader::new(source)));
         }
         let io = |error| ImportError::io(&self.path, error);
-        let mut file = File::open(&self.path).map_err(io)?;
-        let source: Box<dyn Read> = if self.gzip {
-            let mut unpacked = MultiGzDecoder::new(BufReader::with_capacity(BUFFER, file));
+        let (mut file, _) = files::open(&self.path).map_err(io)?;
+        let source: Box<dyn Read> = if self.packing == Packing::None {
+            file.seek(SeekFrom::Start(*offset)).map_err(io)?;
+            Box::new(file.take(*bytes))
+        } else {
+            let mut unpacked = self.packing.unpack(file);
             let before = io::copy(&mut unpacked.by_ref().take(*offset), &mut io::sink());
             before.map_err(|error| Self::damaged(&self.path, &error))?;
             Box::new(unpacked.take(*bytes))
-        } else {
-            file.seek(SeekFrom::Start(*offset)).map_err(io)?;
-            Box::new(file.take(*bytes))
         };
         Ok(Some(BufReader::with_capacity(BUFFER, source)))
     }

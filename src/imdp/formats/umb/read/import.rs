@@ -3,14 +3,15 @@
 use super::super::member;
 use super::archive::Archive;
 use super::index::Index;
+use super::rewards::read_rewards;
 use super::sets::read_set;
 use super::transitions::read_transitions;
 use super::valuations::read_variables;
 use crate::formats::import::{ImportError, Imported, Position, Warning};
-use crate::model::{Labels, StateVariables};
+use crate::model::{Labels, StateVariables, require_memory};
 use std::path::Path;
 
-/// Reads an interval MDP or interval DTMC from a UMB archive, compressed with gzip or not.
+/// Reads an interval MDP or interval DTMC from a UMB archive, as it is or compressed with gzip or xz.
 ///
 /// Reads what [`UmbWriter`](crate::formats::umb::UmbWriter), PRISM, Storm and `umbi` write. Members that
 /// may be left out have the values of the standard. A double stands for its shortest decimal when sums are
@@ -19,7 +20,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`ImportError`] with the member and the entry of the first thing that is not as the format wants it.
-/// Rewards, observations, games, continuous time and rational numbers are refused by name.
+/// Observations, games, continuous time and rational numbers are refused by name.
 pub fn import(path: &Path) -> Result<Imported, ImportError> {
     import_with_progress(path, &mut |_| {})
 }
@@ -32,6 +33,8 @@ pub fn import_with_progress(path: &Path, progress: &mut dyn FnMut(u64)) -> Resul
     let archive = Archive::open(path)?;
     let mut index = Index::read(&archive)?;
     let states = index.counts.states;
+    let sets = index.labels.len() as u64 + 2;
+    require_memory(format!("{} labels", index.labels.len()), states.div_ceil(4).saturating_mul(sets))?;
     let initial = read_set(&archive, member::STATE_IS_INITIAL, states)?;
     let marked = initial.count_ones(..) as u64;
     if marked != index.counts.initial || marked == 0 {
@@ -65,6 +68,8 @@ pub fn import_with_progress(path: &Path, progress: &mut dyn FnMut(u64)) -> Resul
         None => StateVariables::default(),
     };
     let mut imported = transitions.into_model(index.kind, initial, labels, variables)?;
+    imported.model =
+        imported.model.with_rewards(read_rewards(&archive, &index, without_choices.as_ref())?)?;
     imported.warnings.extend(index.warnings);
     let foreign: Vec<_> = archive.names().filter(|name| !is_standard(name)).collect();
     if let Some(name) = foreign.iter().min() {

@@ -20,6 +20,8 @@ pub(super) struct Index {
     pub intervals: bool,
     /// Per label, its identifier and its name.
     pub labels: Vec<(String, String)>,
+    /// The reward structures.
+    pub rewards: Vec<RewardEntry>,
     /// The variables of states, if they are of a kind that can be read.
     pub variables: Option<ValuationClass>,
     /// There is an annotation of ours about states without choices.
@@ -129,6 +131,17 @@ pub(super) enum Field {
     },
 }
 
+/// A reward structure: what earns something.
+#[derive(Debug)]
+pub(super) struct RewardEntry {
+    /// Where it is in the archive.
+    pub id: String,
+    /// What it is called.
+    pub name: String,
+    /// States, choices, branches.
+    pub applies_to: Vec<String>,
+}
+
 impl Index {
     /// Reads the index of an archive.
     ///
@@ -177,6 +190,7 @@ impl Index {
             counts,
             intervals,
             labels: vec![],
+            rewards: vec![],
             variables: None,
             without_choices: false,
             zero_lower_bound: None,
@@ -200,14 +214,15 @@ impl Index {
                     annotations.to_string(),
                 ));
             };
-            if group == "rewards" && !annotations.is_empty() {
-                let names: Vec<_> = annotations.keys().cloned().collect();
-                return Err(at().refuse("no rewards, which are not supported", names.join(", ")));
-            }
             for (id, annotation) in annotations {
                 let what = format!("the annotation {group}/{id}");
                 let annotation: Annotation = serde_json::from_value(annotation)
                     .map_err(|error| at().refuse(format!("{what} of UMB"), error.to_string()))?;
+                if group == member::REWARDS && annotation.is_number() {
+                    let name = annotation.alias.unwrap_or_else(|| id.clone());
+                    self.rewards.push(RewardEntry { id, name, applies_to: annotation.applies_to });
+                    continue;
+                }
                 let of_states = annotation.applies_to == ["states"] && annotation.kind.name == "bool";
                 match group.as_str() {
                     member::APS if of_states => {
@@ -253,6 +268,12 @@ impl Index {
     /// Notes that something is not read.
     pub(super) fn ignore(&mut self, archive: &Archive, what: String) {
         self.warnings.push(Warning::Ignored { path: archive.path().to_owned(), what });
+    }
+}
+
+impl Annotation {
+    fn is_number(&self) -> bool {
+        self.kind.name == "double" && self.kind.size.is_none_or(|size| size == 64)
     }
 }
 

@@ -5,6 +5,7 @@ mod archive;
 mod array;
 mod import;
 mod index;
+mod rewards;
 mod sets;
 mod transitions;
 mod valuations;

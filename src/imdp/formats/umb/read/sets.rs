@@ -3,7 +3,7 @@
 use super::super::member::bitset_bytes;
 use super::archive::Archive;
 use crate::formats::import::{ImportError, Position};
-use crate::model::{StateSet, require_memory};
+use crate::model::StateSet;
 use std::io::Read;
 
 /// Reads the set in a member that must exist.
@@ -19,7 +19,6 @@ pub(super) fn read_set(archive: &Archive, name: &str, states: u64) -> Result<Sta
         let expected = format!("{} bytes, one bit for each of {states} states", bitset_bytes(states));
         return Err(at(None).refuse(expected, format!("{found} bytes")));
     }
-    require_memory(name, 2 * found)?;
     let mut bytes = vec![];
     if let Some(mut source) = archive.read(name)? {
         source

@@ -6,6 +6,7 @@ use super::array::Array;
 use super::index::{Field, ValuationClass};
 use crate::formats::import::{ImportError, Position};
 use crate::model::{StateSet, StateVariables, VariableValues, require_memory};
+use std::collections::HashSet;
 
 /// Where a variable is in the bits of a state.
 struct Packed {
@@ -27,8 +28,9 @@ pub(super) fn read_variables(
     states: u64,
 ) -> Result<StateVariables, ImportError> {
     let at = |name: &str| Position::member(archive.path(), name, None);
-    let room = archive.bytes(member::VALUATIONS).unwrap_or(0).min(states) as usize;
-    let (mut packed, bits) = layout(class, room).map_err(|found| {
+    // No more bits are believed than there are.
+    let most = archive.bytes(member::VALUATIONS).unwrap_or(u64::MAX / 8).saturating_mul(8);
+    let (mut packed, bits) = layout(class, most).map_err(|found| {
         at(member::INDEX).refuse("variables with different names whose bits fill up whole bytes", found)
     })?;
     let integers = packed.iter().filter(|variable| matches!(variable.values, VariableValues::Int(_))).count();
@@ -38,6 +40,11 @@ pub(super) fn read_variables(
             at(member::VALUATIONS).refuse("the values of the variables in the index", "no such member")
         );
     };
+    for variable in &mut packed {
+        if let VariableValues::Int(values) = &mut variable.values {
+            values.reserve_exact(states as usize);
+        }
+    }
     let mut bytes = vec![0; (bits / 8) as usize];
     for state in 0..states as usize {
         array.fill(&mut bytes)?;
@@ -73,29 +80,30 @@ pub(super) fn read_variables(
 }
 
 /// The variables of a class and the number of its bits.
-fn layout(class: ValuationClass, room: usize) -> Result<(Vec<Packed>, u64), String> {
+fn layout(class: ValuationClass, most: u64) -> Result<(Vec<Packed>, u64), String> {
     let mut packed: Vec<Packed> = vec![];
+    let mut names = HashSet::new();
     let mut bits = 0u64;
     for field in class.variables {
         let first = bits as usize;
         let width = match field {
             Field::Padding { padding } => padding,
             Field::Variable { name, kind, offset, .. } => {
-                if packed.iter().any(|earlier| earlier.name == name) {
+                if !names.insert(name.clone()) {
                     return Err(format!("{name} twice"));
                 }
                 let is_bool = kind.name == "bool";
                 let width = kind.size.unwrap_or(if is_bool { 1 } else { 64 });
                 let values = match is_bool {
                     true => VariableValues::Bool(StateSet::new()),
-                    false => VariableValues::Int(Vec::with_capacity(room)),
+                    false => VariableValues::Int(vec![]),
                 };
                 let (is_signed, offset) = (kind.name == "int", offset.unwrap_or(0));
                 packed.push(Packed { name, first, width: width as usize, offset, is_signed, values });
                 width
             }
         };
-        bits = bits.checked_add(width).filter(|&bits| bits <= 1 << 20).ok_or("too many bits")?;
+        bits = bits.checked_add(width).filter(|&bits| bits <= most).ok_or("too many bits")?;
     }
     match bits {
         0 => Err("no bits".to_owned()),

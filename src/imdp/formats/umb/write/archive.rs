@@ -1,6 +1,7 @@
 //! A tar archive whose members are streamed.
 
 use super::PIECE;
+use crate::files::interruption;
 use crate::progress::Progress;
 use std::io::{self, BufWriter, Write};
 
@@ -79,7 +80,7 @@ struct Counted<'a> {
 impl Write for Counted<'_> {
     fn write(&mut self, buffer: &[u8]) -> io::Result<usize> {
         if self.progress.is_interrupted() {
-            return Err(io::Error::other("interrupted, nothing was written"));
+            return Err(interruption());
         }
         let left = self.left.checked_sub(buffer.len() as u64);
         self.left = left.ok_or_else(|| io::Error::other("a member of the archive is longer than planned"))?;

@@ -1,0 +1,62 @@
+//! What happens when the system or the user wants the program to end.
+
+use super::{Bars, CliError, warn};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Who is asked to end cleanly; without anybody, the program ends at once.
+static LISTENER: Mutex<Option<Arc<Bars>>> = Mutex::new(None);
+
+/// From now on the first signal asks `bars` to end the work cleanly, and the second one ends the program.
+pub(crate) fn listen(bars: &Arc<Bars>) {
+    *LISTENER.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::clone(bars));
+}
+
+/// Takes signals from now on: whatever ends the program leaves nothing behind and gives a documented exit code.
+///
+/// A write beyond the limit on the size of files (`XFSZ`) becomes an error of that write, and an abort, which is what
+/// happens when memory runs out, exit code 4. A signal that the caller has the program ignore stays ignored.
+///
+/// # Errors
+/// [`CliError::Failure`] if the system does not let us.
+#[cfg(unix)]
+pub(crate) fn watch() -> Result<(), CliError> {
+    use signal_hook::consts::{SIGABRT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXCPU, SIGXFSZ};
+    use std::sync::atomic::AtomicBool;
+    let failure = |error| CliError::Failure(format!("signals: {error}"));
+    let always = Arc::new(AtomicBool::new(true));
+    signal_hook::flag::register_conditional_shutdown(SIGABRT, 4, Arc::clone(&always)).map_err(failure)?;
+    signal_hook::flag::register(SIGXFSZ, always).map_err(failure)?;
+    let ending = [SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU];
+    let wanted = ending.into_iter().filter(|&signal| !is_ignored(signal));
+    let mut signals = signal_hook::iterator::Signals::new(wanted).map_err(failure)?;
+    let wait = move || signals.forever().for_each(|_| end());
+    std::thread::Builder::new().name("signals".into()).spawn(wait).map_err(failure)?;
+    Ok(())
+}
+
+#[cfg(not(unix))]
+pub(crate) fn watch() -> Result<(), CliError> {
+    Ok(())
+}
+
+/// Asks for a clean end, or ends the program.
+#[cfg(unix)]
+fn end() {
+    use std::sync::atomic::Ordering;
+    let listener = LISTENER.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    let asked_before = listener.is_none_or(|bars| bars.interrupt().swap(true, Ordering::Relaxed));
+    if asked_before {
+        imdp::files::abandon_all();
+        warn("error: interrupted\n");
+        std::process::exit(3);
+    }
+}
+
+/// Whether the program was started with a signal ignored, as `nohup` does.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);
+    mask >> (signal - 1) & 1 == 1
+}
