@@ -2,7 +2,7 @@
 
 use dynabs::abstraction::compile;
 use dynabs::model_file::Document;
-use imdp::certificate::{self, ModelFile};
+use imdp::certificate::{self, FileDigest};
 use imdp::formats::{native, sha256_hex};
 use imdp::solver::{Answer, SolverOptions};
 use imdp::verify::check;
@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let abstraction = compile(&problem, &())?;
     let mut model = Vec::new();
     native::write(&abstraction.model, &mut model)?;
-    let files = vec![ModelFile { kind: "dynabs".to_owned(), sha256: sha256_hex(&model) }];
+    let files = vec![FileDigest { kind: "dynabs".to_owned(), sha256: sha256_hex(&model) }];
 
     let options = SolverOptions { evidence: true, ..SolverOptions::default() };
     let mut answer = Answer::new(&abstraction.model, &abstraction.property, &options)?;

@@ -8,7 +8,7 @@ use imdp::model::{
     StateVariables, VariableValues,
 };
 use imdp::property::{
-    Comparison, IntegerExpression, PathFormula, Property, Resolution, StateFormula, parse_property,
+    IntegerExpression, PathFormula, Property, Relation, Resolution, StateFormula, parse_property,
 };
 use proptest::prelude::*;
 use serde_json::Value;
@@ -222,7 +222,7 @@ fn holds(formula: &StateFormula, place: Place) -> bool {
                 place.failed
             }
         }
-        StateFormula::Compare(left, Comparison::Less, right) => number(left) < number(right),
+        StateFormula::Compare(left, Relation::Less, right) => number(left) < number(right),
         StateFormula::Compare(left, _, right) => number(left) == number(right),
         StateFormula::Not(operand) => !holds(operand, place),
         StateFormula::And(operands) => operands.iter().all(|operand| holds(operand, place)),
@@ -250,15 +250,14 @@ fn state_formula() -> impl Strategy<Value = StateFormula> {
         Just(StateFormula::True),
         Just(StateFormula::label("reached")),
         Just(StateFormula::label("failed")),
+        (0u32..5)
+            .prop_map(move |c| { StateFormula::Compare(x(), Relation::Less, IntegerExpression::Literal(c)) }),
         (0u32..5).prop_map(move |c| {
-            StateFormula::Compare(x(), Comparison::Less, IntegerExpression::Literal(c))
-        }),
-        (0u32..5).prop_map(move |c| {
-            StateFormula::Compare(x(), Comparison::Equal, IntegerExpression::Literal(c))
+            StateFormula::Compare(x(), Relation::Equal, IntegerExpression::Literal(c))
         }),
         Just(StateFormula::Compare(
             x(),
-            Comparison::Equal,
+            Relation::Equal,
             IntegerExpression::Negate(Box::new(IntegerExpression::Literal(2)))
         )),
     ];

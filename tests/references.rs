@@ -2,7 +2,7 @@
 //!
 //! After an intended change: `scripts/update-references.sh`, which prints what changed.
 use crate::common::{abstraction, reference_mode, root, shipped_models};
-use imdp::compare::{Comparison, DiffOptions, Record, Tolerance, diff, open};
+use imdp::compare::{DiffOptions, Differences, Record, Tolerance, diff, open};
 use imdp::model::Rows;
 use std::fs;
 
@@ -21,7 +21,7 @@ fn reference(model: &str, mode: &str) -> Record {
     open(&root().join(format!("tests/references/{model}.{mode}.json"))).unwrap()
 }
 
-fn compare(reference: Record, now: Record) -> Comparison {
+fn compare(reference: Record, now: Record) -> Differences {
     let tolerance = Tolerance { absolute: 1e-9, relative: 1e-9 };
     diff(reference, now, &DiffOptions { tolerance, ..DiffOptions::default() }).unwrap()
 }

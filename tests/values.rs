@@ -146,7 +146,7 @@ fn pac_table(noise: Option<&str>) -> PacTable {
         sets.extend(noise.map(|noise| format!("/noise={noise}")));
         let values = values_by_cell(&abstraction(model, &sets));
         let along = along_x1(&values);
-        // Cell i is centred at x1 = 2i − 40.
+        // Cell i is centered at x1 = 2i − 40.
         [along[5], along[10], along[15], along[22], values.iter().sum::<f64>() / values.len() as f64]
     };
     rows.iter().map(of_row).collect::<Vec<_>>().try_into().unwrap()

@@ -3,7 +3,7 @@
 use super::{Bars, CliError};
 use dynabs::guarantee::{Claim, Gap, Guarantee};
 use dynabs::run::{Manifest, NATIVE_MODEL, RunFiles};
-use imdp::certificate::ModelFile;
+use imdp::certificate::FileDigest;
 use imdp::files::{Snapshot, steady};
 use imdp::formats::Format;
 use imdp::formats::sha256_of_file;
@@ -63,12 +63,12 @@ impl LoadedModel {
     ///
     /// # Errors
     /// [`CliError::Failure`] if they cannot be read again.
-    pub(super) fn digests(&self) -> Result<Vec<ModelFile>, CliError> {
+    pub(super) fn digests(&self) -> Result<Vec<FileDigest>, CliError> {
         self.require_unchanged()?;
         let digest = |path: &PathBuf| {
             let kind = path.extension().unwrap_or_default().to_string_lossy().into_owned();
             match sha256_of_file(path) {
-                Ok(sha256) => Ok(ModelFile { kind, sha256 }),
+                Ok(sha256) => Ok(FileDigest { kind, sha256 }),
                 Err(error) => Err(CliError::Failure(format!("{}: {error}", path.display()))),
             }
         };

@@ -1,14 +1,14 @@
 //! Solving with a certificate that is written, read and accepted.
 
-use imdp::certificate::{self, Certificate, ModelFile};
+use imdp::certificate::{self, Certificate, FileDigest};
 use imdp::model::IntervalMdp;
 use imdp::property::Property;
 use imdp::solver::{Answer, SolverOptions};
 use imdp::verify::check;
 
 /// Any digest: the model is in memory.
-pub fn files() -> Vec<ModelFile> {
-    vec![ModelFile { kind: "dynabs".into(), sha256: "0".repeat(64) }]
+pub fn files() -> Vec<FileDigest> {
+    vec![FileDigest { kind: "dynabs".into(), sha256: "0".repeat(64) }]
 }
 
 /// The answer and its certificate, which has been through a file and was accepted.

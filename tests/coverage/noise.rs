@@ -21,7 +21,7 @@ pub enum Noise {
 
 const MEAN: [f64; 2] = [0.1, -0.05];
 const SCALE: [f64; 2] = [0.4, 0.3];
-/// What the humps are apart from their centre, and how wide they are, in units of the scale.
+/// What the humps are apart from their center, and how wide they are, in units of the scale.
 const HUMP: (f64, f64) = (1.0, 0.4);
 const CORRELATION: f64 = 0.8;
 /// Gauss–Legendre nodes and weights on [−1, 1], 8 of them.

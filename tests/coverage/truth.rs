@@ -17,7 +17,7 @@ pub const HORIZON: u64 = 4;
 /// Where actions steer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
-    /// The centres of all cells: rows are translations of each other.
+    /// The centers of all cells: rows are translations of each other.
     Centers,
     /// A few points anywhere.
     Points,

@@ -123,7 +123,7 @@ fn limits_leave_sound_bounds() {
     let (safe, goal) = (set(3, &[0, 1, 2]), set(3, &[1]));
     for steps in [None, Some(100)] {
         let options = SolverOptions { max_iterations: 3, ..Default::default() };
-        let query = Query::Until { safe: &safe, goal: &goal, steps };
+        let query = Event::Until { safe: &safe, goal: &goal, steps };
         let solution = solve(&m, &query, Resolution::Pmaxmin, &options).unwrap();
         assert_eq!(solution.status, Status::IterationLimit);
         let (lower, upper) = values(&solution, 0);
@@ -133,7 +133,7 @@ fn limits_leave_sound_bounds() {
         let solution = solve(&m, &query, Resolution::Pmaxmin, &options).unwrap();
         assert_eq!(solution.status, Status::Interrupted);
     }
-    let query = Query::Until { safe: &safe, goal: &set(2, &[1]), steps: None };
+    let query = Event::Until { safe: &safe, goal: &set(2, &[1]), steps: None };
     assert!(solve(&m, &query, Resolution::Pmaxmin, &SolverOptions::default()).is_err());
 }
 

@@ -7,7 +7,7 @@ use crate::common::certified::certified;
 use imdp::model::{IntervalMdp, StateSet};
 use imdp::numeric::from_dyadic;
 use imdp::property::Resolution;
-use imdp::solver::{Query, Solution, SolverOptions, Status, ValueBounds, solve};
+use imdp::solver::{Event, Solution, SolverOptions, Status, ValueBounds, solve};
 use num_rational::BigRational;
 use proptest::prelude::*;
 use reference::Exact;
@@ -40,7 +40,7 @@ fn until_uncertified(
     steps: Option<u64>,
     resolution: Resolution,
 ) -> Solution {
-    solve(model, &Query::Until { safe, goal, steps }, resolution, &options()).unwrap()
+    solve(model, &Event::Until { safe, goal, steps }, resolution, &options()).unwrap()
 }
 
 fn options() -> SolverOptions<'static> {

@@ -4,7 +4,7 @@ use crate::exports::replace;
 use crate::{CliError, print, thousands};
 use clap::Args;
 use dynabs::run::{RecordError, open_record};
-use imdp::compare::{CompareError, Comparison, DiffOptions, Reference, Section, Tolerance, diff};
+use imdp::compare::{CompareError, DiffOptions, Differences, Reference, Section, Tolerance, diff};
 use serde_json::json;
 use std::fmt::Write as _;
 use std::io::Write;
@@ -102,7 +102,7 @@ fn write_reference(file: &Path, reference: &Reference) -> Result<ExitCode, CliEr
     Ok(ExitCode::SUCCESS)
 }
 
-fn text(comparison: &Comparison, (left, right): (&str, &str)) -> String {
+fn text(comparison: &Differences, (left, right): (&str, &str)) -> String {
     let mut text = String::new();
     for section in &comparison.sections {
         write_section(section, &mut text);

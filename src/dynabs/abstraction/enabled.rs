@@ -23,7 +23,7 @@ const CELLS_PER_TASK: usize = 256;
 ///
 /// Action `a` is enabled in cell `s` iff the feedback law keeps its input in `U` (and `U′`) from every
 /// state of the cell (ECC 2024, eq. (8) and Lemma 1). Each half-space `α·d + γ·x ≤ β` holds on the whole
-/// box with centre `c` and widths `w` iff
+/// box with center `c` and widths `w` iff
 ///
 /// `α·d_a ≤ β − γ·c − |γ|·w/2`,
 ///

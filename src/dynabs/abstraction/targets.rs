@@ -27,7 +27,7 @@ pub struct Alignment {
     pub first_cell: u32,
     /// How many cells apart neighbouring targets are.
     pub stride: u32,
-    /// Where in its cell every target sits: 0 at the lower face, ½ at the centre.
+    /// Where in its cell every target sits: 0 at the lower face, ½ at the center.
     pub phase: Rational,
 }
 
@@ -145,7 +145,7 @@ mod tests {
     use imdp::numeric::from_decimal;
 
     #[test]
-    fn centres_are_aligned() {
+    fn centers_are_aligned() {
         let exact = |values: &[f64]| values.iter().map(|&x| from_decimal(x).unwrap()).collect::<Vec<_>>();
         let grid = Grid::new(&exact(&[-1.0, 0.0]), &exact(&[1.0, 3.0]), &[2, 3]).unwrap();
         let targets = Targets::new(&TargetPoints::Centers, &grid);

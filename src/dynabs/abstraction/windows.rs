@@ -1,6 +1,6 @@
 //! Which cells a row lists: nested boxes around the target, and how much may lie outside them.
 //!
-//! The boxes `{η : |η_j − c_j| ≤ t h_j for all j}` have one parameter `t`. Their centre `c` and proportions `h`
+//! The boxes `{η : |η_j − c_j| ≤ t h_j for all j}` have one parameter `t`. Their center `c` and proportions `h`
 //! are learned from the first few samples, their size from all others, so that given the first ones the family
 //! is fixed. With the `j` farthest of `N` samples left out, `t` is the `(j+1)`-th largest distance, and
 //!
@@ -27,16 +27,16 @@ const SHAPE_SAMPLES: usize = 48;
 /// And at most this part of all samples.
 const SHAPE_PART: usize = 16;
 
-/// A mean this many standard errors away from 0 is taken for the centre, if this many samples say so.
-const CLEARLY_OFF_CENTRE: (f64, usize) = (3.0, 8);
+/// A mean this many standard errors away from 0 is taken for the center, if this many samples say so.
+const CLEARLY_OFF_CENTER: (f64, usize) = (3.0, 8);
 
 /// The least half-width, in cells: noise far below a cell stays in it, and some width there must be.
 const LEAST_PROPORTION: f64 = 1.0 / 16.0;
 
-/// The centre and the proportions of nested boxes.
+/// The center and the proportions of nested boxes.
 #[derive(Clone, Debug)]
 pub(super) struct Shape {
-    centre: Vec<f64>,
+    center: Vec<f64>,
     half: Vec<f64>,
     /// How many of the first samples it was learned from: the others are independent of it.
     samples: usize,
@@ -59,46 +59,46 @@ pub(super) fn shape_samples(samples: usize) -> usize {
 }
 
 impl Shape {
-    /// Half-widths are the standard deviations, but at least a sixteenth of a cell; the centre is 0 unless the mean clearly
+    /// Half-widths are the standard deviations, but at least a sixteenth of a cell; the center is 0 unless the mean clearly
     /// lies elsewhere.
     pub(super) fn learn(samples: &NoiseSamples, grid: &Grid) -> Self {
         let used = shape_samples(samples.len());
         let number = used as f64;
-        let (mut centre, mut half) = (vec![], vec![]);
+        let (mut center, mut half) = (vec![], vec![]);
         for (j, axis) in grid.axes().iter().enumerate() {
             let values = || samples.iter().take(used).map(|sample| sample[j]);
             let mean = values().sum::<f64>() / number;
             let squares = values().map(|x| (x - mean) * (x - mean)).sum::<f64>();
             let error = (squares / (number * (number - 1.0))).sqrt();
-            let is_off = used >= CLEARLY_OFF_CENTRE.1 && mean.abs() > CLEARLY_OFF_CENTRE.0 * error;
+            let is_off = used >= CLEARLY_OFF_CENTER.1 && mean.abs() > CLEARLY_OFF_CENTER.0 * error;
             let middle = if is_off { mean } else { 0.0 };
             let least = LEAST_PROPORTION * to_f64(axis.width());
             let deviation = (squares / (number - 1.0)).sqrt();
             // Not a number if there are too few samples.
             half.push(least.max(deviation));
-            centre.push(middle);
+            center.push(middle);
         }
-        Self { centre, half, samples: used }
+        Self { center, half, samples: used }
     }
 
     /// The distance of the farthest of these cells.
     fn distance_of_cells(&self, spread: &Spread, placement: &Placement) -> f64 {
-        let along = |j: usize, o| placement.distance(j, o, self.centre[j]) / self.half[j];
+        let along = |j: usize, o| placement.distance(j, o, self.center[j]) / self.half[j];
         (0..self.half.len())
             .map(|j| along(j, spread.lower[j]).max(along(j, spread.upper[j])))
             .fold(0.0, f64::max)
     }
 
     fn distance_of_point(&self, noise: &[f64]) -> f64 {
-        let along = |j: usize| (noise[j] - self.centre[j]).abs() / self.half[j];
+        let along = |j: usize| (noise[j] - self.center[j]).abs() / self.half[j];
         (0..self.half.len()).map(along).fold(0.0, f64::max)
     }
 
     /// The cells that are at most this far.
     fn cells_within(&self, reach: f64, placement: &Placement) -> Spread {
-        let mut cells = placement.spread(&self.centre);
+        let mut cells = placement.spread(&self.center);
         for j in 0..self.half.len() {
-            let is_within = |o| placement.distance(j, o, self.centre[j]) / self.half[j] <= reach;
+            let is_within = |o| placement.distance(j, o, self.center[j]) / self.half[j] <= reach;
             let (lowest, highest) = placement.extent(j);
             while cells.lower[j] > lowest && is_within(cells.lower[j] - 1) {
                 cells.lower[j] -= 1;
@@ -114,7 +114,7 @@ impl Shape {
     fn cells_met(&self, reach: f64, placement: &Placement) -> Spread {
         // Distances are rounded three times and so are the sides; twice as much covers both.
         let side = |j: usize, sign: f64| {
-            let (c, h) = (self.centre[j], self.half[j]);
+            let (c, h) = (self.center[j], self.half[j]);
             c + sign * (reach * h + 16.0 * UNIT_ROUNDOFF * (c.abs() + reach * h))
         };
         let sides = |sign| (0..self.half.len()).map(|j| side(j, sign)).collect::<Vec<_>>();

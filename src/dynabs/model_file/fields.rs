@@ -33,7 +33,7 @@ pub(super) struct ModelFile {
     pub(super) stabilizer: Option<StabilizerSpec>,
     /// The grid of cells; everything outside counts as failed.
     pub(super) partition: GridSpec,
-    /// The points that actions steer to: "centers" (of all cells, the default), a grid whose cell centres
+    /// The points that actions steer to: "centers" (of all cells, the default), a grid whose cell centers
     /// are the targets, or a list of points.
     #[serde(default)]
     pub(super) targets: TargetsSpec,
@@ -182,10 +182,10 @@ pub(super) struct GridSpec {
 /// The points that actions steer to.
 #[derive(Clone, Debug, Default)]
 pub(super) enum TargetsSpec {
-    /// The centres of all cells.
+    /// The centers of all cells.
     #[default]
     Centers,
-    /// The centres of the cells of this grid.
+    /// The centers of the cells of this grid.
     Grid(GridSpec),
     /// These points.
     Points(Vec<Vec<f64>>),

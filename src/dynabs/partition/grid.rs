@@ -50,7 +50,7 @@ impl Axis {
         &self.lower + &self.width * Rational::from_integer(i.into())
     }
 
-    /// The centre of cell `i`, `lower + (i + ½) · width`.
+    /// The center of cell `i`, `lower + (i + ½) · width`.
     pub fn center(&self, i: u32) -> Rational {
         &self.lower + &self.width * Rational::new((2 * u64::from(i) + 1).into(), 2.into())
     }
@@ -66,7 +66,7 @@ impl Axis {
         index.to_u32().filter(|&i| i < self.cells)
     }
 
-    /// The centres of all cells, each rounded to the nearest double.
+    /// The centers of all cells, each rounded to the nearest double.
     pub fn centers(&self) -> Vec<f64> {
         (0..self.cells).map(|i| to_f64(&self.center(i))).collect()
     }
@@ -188,10 +188,10 @@ impl Grid {
     }
 
     /// Whether every cell is as wide as those of `other`, whose faces these are multiples of: then each
-    /// centre here sits at the same relative place of a cell there.
+    /// center here sits at the same relative place of a cell there.
     ///
-    /// Returns, per dimension, the first centre's position in cells of `other` and the spacing in whole
-    /// cells of `other`; `None` if the spacing is not a whole number of cells or centres leave `other`.
+    /// Returns, per dimension, the first center's position in cells of `other` and the spacing in whole
+    /// cells of `other`; `None` if the spacing is not a whole number of cells or centers leave `other`.
     pub fn lattice_in(&self, other: &Self) -> Option<Vec<(Rational, u32)>> {
         let dimensions = self.axes.iter().zip(&other.axes);
         dimensions

@@ -48,7 +48,7 @@ fn description(material: &Material<'_>, view: &View) -> String {
     let at = view.at(material, view.fixed());
     format!(
         "The {}{at}, from dark (0) to light (1); the unsafe region is hatched, the \
-         goal outlined; arrows point from the centres of cells towards the mean of the next state; lines are {} \
+         goal outlined; arrows point from the centers of cells towards the mean of the next state; lines are {} \
          simulated runs.",
         material.value_name(),
         material.trajectories.len()

@@ -114,7 +114,7 @@ impl<'a> Material<'a> {
         (faces[0], faces[faces.len() - 1])
     }
 
-    /// The centre of a cell in one dimension.
+    /// The center of a cell in one dimension.
     pub(super) fn center(&self, dimension: usize, index: u32) -> f64 {
         let faces = &self.faces[dimension];
         (faces[index as usize] + faces[index as usize + 1]) / 2.0
@@ -167,7 +167,7 @@ impl<'a> Material<'a> {
     }
 }
 
-/// The centre of an ordinary cell from which something is promised: the one with the median promise.
+/// The center of an ordinary cell from which something is promised: the one with the median promise.
 fn typical_state(problem: &Problem, controller: &Controller) -> Vec<f64> {
     let ordinary = problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
     let mut cells: Vec<CellId> = ordinary.map(|(cell, _)| cell).collect();

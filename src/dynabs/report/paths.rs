@@ -10,7 +10,7 @@ use crate::controller::{Decision, Trajectory};
 /// The most arrows along one side.
 const MOST_ARROWS: u32 = 20;
 
-/// An arrow from the centre of every few cells towards the mean of the next state, shortened to its place.
+/// An arrow from the center of every few cells towards the mean of the next state, shortened to its place.
 pub(super) fn arrows(material: &Material<'_>, view: &View, frame: &Frame) -> String {
     let (columns, rows) = view.size(material);
     let (stride_x, stride_y) = (columns.div_ceil(MOST_ARROWS), rows.div_ceil(MOST_ARROWS));

@@ -2,7 +2,7 @@
 
 use crate::run::Run;
 use imdp::property::QueryKind;
-use imdp::solver::{Answer, AnswerError, Query, SolverOptions, solve};
+use imdp::solver::{Answer, AnswerError, Event, SolverOptions, solve};
 
 /// The most steps for which values are kept.
 const MOST_STEPS: u64 = 60;
@@ -25,7 +25,7 @@ impl StepValues {
             let last = (*horizon).min(MOST_STEPS).min((MOST_VALUES / cells).saturating_sub(1));
             let options = SolverOptions { policy: false, evidence: false, ..*options };
             for step in 1..=last {
-                let query = Query::Until { safe, goal, steps: Some(horizon - step) };
+                let query = Event::Until { safe, goal, steps: Some(horizon - step) };
                 let solution = solve(&run.abstraction.model, &query, answer.query.resolution, &options)?;
                 by_step.push(of_cells(run, &solution.values.lower));
             }

@@ -84,7 +84,7 @@ impl View {
         (across, subscripted("x", self.up + 1))
     }
 
-    /// ` at x₃ = 1, …`: where the centre of the cell lies in some dimensions; nothing for none.
+    /// ` at x₃ = 1, …`: where the center of the cell lies in some dimensions; nothing for none.
     pub(super) fn at(&self, material: &Material<'_>, dimensions: impl Iterator<Item = usize>) -> String {
         let center =
             |j: usize| format!("{} = {}", subscripted("x", j + 1), short(material.center(j, self.slice[j])));

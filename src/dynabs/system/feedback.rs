@@ -1,11 +1,11 @@
-//! Local feedback about the centre of a cell.
+//! Local feedback about the center of a cell.
 
 use crate::linear_algebra::ExactMatrix;
 use crate::partition::Grid;
 use imdp::numeric::{Rational, to_f64};
 use num_traits::{Signed, Zero};
 
-/// The input `u = ū − K (x − c)` in the cell with centre `c`, for every nominal input `ū`.
+/// The input `u = ū − K (x − c)` in the cell with center `c`, for every nominal input `ū`.
 ///
 /// A gain that contracts the cell makes images small. `K` is `p×n`, in exact decimals.
 #[derive(Clone, Debug, PartialEq)]

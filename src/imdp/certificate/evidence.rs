@@ -9,7 +9,7 @@ pub struct Certificate {
     /// The property that was solved.
     pub property: Property,
     /// The files of the model.
-    pub files: Vec<ModelFile>,
+    pub files: Vec<FileDigest>,
     /// The number of states of the model.
     pub states: u64,
     /// The claim: the value is at least this in every initial state.
@@ -22,7 +22,7 @@ pub struct Certificate {
 
 /// A file that a model was read from.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ModelFile {
+pub struct FileDigest {
     /// What it is: `dynabs` for the native format; `tra`, `sta` and `lab` for PRISM's explicit files.
     pub kind: String,
     /// Its SHA-256, in hexadecimal.

@@ -34,7 +34,7 @@ mod read;
 mod write;
 
 pub use error::CertificateError;
-pub use evidence::{Certificate, Evidence, Inductive, ModelFile, Step};
+pub use evidence::{Certificate, Evidence, FileDigest, Inductive, Step};
 pub use read::{read, read_file};
 pub use write::write;
 

@@ -1,6 +1,6 @@
 //! Reading certificates, trusting nothing.
 
-use super::{Certificate, Evidence, Inductive, ModelFile, Step};
+use super::{Certificate, Evidence, FileDigest, Inductive, Step};
 use super::{CertificateError, FIRST_LINE};
 use crate::files;
 use crate::model::{StateId, require_memory};
@@ -58,7 +58,7 @@ impl<'a> Lines<'a> {
         let mut files = vec![];
         while let Some(text) = self.peek("model") {
             let (kind, sha256) = text.split_once(' ').unwrap_or((text, ""));
-            files.push(ModelFile { kind: kind.to_owned(), sha256: sha256.to_owned() });
+            files.push(FileDigest { kind: kind.to_owned(), sha256: sha256.to_owned() });
             self.at += 1;
         }
         let states = self.item("states", "their number", number)?;

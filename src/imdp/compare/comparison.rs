@@ -4,7 +4,7 @@ use serde::Serialize;
 
 /// The outcome of a comparison.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Comparison {
+pub struct Differences {
     /// One section for each part that both sides have.
     pub sections: Vec<Section>,
     /// What could not be compared, and why.
@@ -39,7 +39,7 @@ pub struct Difference {
     pub by: Option<f64>,
 }
 
-impl Comparison {
+impl Differences {
     /// Whether no part differs.
     pub fn is_same(&self) -> bool {
         self.sections.iter().all(|section| section.differences == 0)

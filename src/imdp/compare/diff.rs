@@ -5,7 +5,7 @@ use super::diff_labels::diff_labels;
 use super::diff_models::diff_models;
 use super::diff_policies::diff_policies;
 use super::diff_values::{diff_results, diff_values};
-use super::{CompareError, Comparison, Record, Section, Sizes, Tolerance};
+use super::{CompareError, Differences, Record, Section, Sizes, Tolerance};
 use crate::property::parse_property;
 
 /// What counts as a difference, and how many are described.
@@ -30,8 +30,8 @@ impl Default for DiffOptions {
 ///
 /// # Errors
 /// [`CompareError`] if a property or policy does not fit its model, or the sides have nothing in common.
-pub fn diff(mut left: Record, mut right: Record, options: &DiffOptions) -> Result<Comparison, CompareError> {
-    let mut out = Comparison { sections: vec![], notes: vec![] };
+pub fn diff(mut left: Record, mut right: Record, options: &DiffOptions) -> Result<Differences, CompareError> {
+    let mut out = Differences { sections: vec![], notes: vec![] };
     out.notes.extend(left.notes.iter().chain(&right.notes).cloned());
     if let (Some(left), Some(right)) = (&left.sizes, &right.sizes) {
         out.sections.push(diff_sizes(left, right, options));
@@ -63,7 +63,7 @@ fn has_model(record: &Record) -> bool {
     record.model.is_some() || record.digest.is_some()
 }
 
-fn one_sided(what: &str, left: bool, right: bool, sides: (&Record, &Record), out: &mut Comparison) {
+fn one_sided(what: &str, left: bool, right: bool, sides: (&Record, &Record), out: &mut Differences) {
     if left != right {
         let owner = if left { &sides.0.name } else { &sides.1.name };
         out.notes.push(format!("only {owner} has {what}"));
@@ -97,7 +97,7 @@ fn complete(
     record: &mut Record,
     other: &Record,
     changed: bool,
-    out: &mut Comparison,
+    out: &mut Differences,
 ) -> Result<(), CompareError> {
     if record.model.is_none() {
         return Ok(());

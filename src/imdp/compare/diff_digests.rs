@@ -2,7 +2,7 @@
 
 use super::digest::{distinct_intervals, hashes, labels};
 use super::used_rows::UsedRows;
-use super::{Comparison, DiffOptions, ModelDigest, Record, Section, Tolerance};
+use super::{DiffOptions, Differences, ModelDigest, Record, Section, Tolerance};
 use crate::model::IntervalMdp;
 use std::collections::HashMap;
 
@@ -13,7 +13,7 @@ type Place = Box<dyn Fn(usize) -> String>;
 ///
 /// A model is hashed with the intervals of the digest that are nearest to its own: an interval that moved
 /// is found in the list, and hashes differ only where something else changed.
-pub(super) fn diff_digests(left: &Record, right: &Record, options: &DiffOptions, out: &mut Comparison) {
+pub(super) fn diff_digests(left: &Record, right: &Record, options: &DiffOptions, out: &mut Differences) {
     let (reference, other, swapped) = match (&left.digest, &right.digest) {
         (Some(digest), _) => (digest, right, false),
         (None, Some(digest)) => (digest, left, true),

@@ -2,7 +2,7 @@
 
 use super::actions::{Actions, Name};
 use super::paired_choices::PairedChoices;
-use super::{Comparison, DiffOptions, Section};
+use super::{DiffOptions, Differences, Section};
 use crate::model::{IntervalMdp, Row, RowId, StateId};
 use std::collections::HashMap;
 
@@ -19,7 +19,7 @@ pub(super) fn diff_models(
     left: &IntervalMdp,
     right: &IntervalMdp,
     options: &DiffOptions,
-    out: &mut Comparison,
+    out: &mut Differences,
 ) {
     if left.num_states() != right.num_states() {
         out.notes.push("choices and intervals were not compared: the numbers of states differ".into());

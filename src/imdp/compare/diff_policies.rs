@@ -3,7 +3,7 @@
 use super::actions::Actions;
 use super::backup::Backup;
 use super::record::answer;
-use super::{CompareError, Comparison, DiffOptions, PolicyFile, Record, Section, Tolerance};
+use super::{CompareError, DiffOptions, Differences, PolicyFile, Record, Section, Tolerance};
 use crate::model::{IntervalMdp, RowId, StateId};
 use crate::property::{Property, parse_property};
 use std::collections::BTreeMap;
@@ -23,7 +23,7 @@ pub(super) fn diff_policies(
     left: &Record,
     right: &Record,
     options: &DiffOptions,
-    out: &mut Comparison,
+    out: &mut Differences,
 ) -> Result<(), CompareError> {
     let (Some(a), Some(b)) = (&left.policy, &right.policy) else { return Ok(()) };
     let mut section = Section::new("policies", options.most);

@@ -1,9 +1,9 @@
 //! Results of properties, and values of states.
 
-use super::{Comparison, DiffOptions, Record, RecordedResult, Section, Values};
+use super::{DiffOptions, Differences, Record, RecordedResult, Section, Values};
 
 /// Compares the answers to properties that both sides have, paired by their text.
-pub(super) fn diff_results(left: &Record, right: &Record, options: &DiffOptions, out: &mut Comparison) {
+pub(super) fn diff_results(left: &Record, right: &Record, options: &DiffOptions, out: &mut Differences) {
     let mut section = Section::new("results", options.most);
     let find = |record: &'_ Record, property: &str| -> Option<RecordedResult> {
         record.results.iter().find(|result| result.property == property).cloned()
@@ -43,7 +43,7 @@ fn diff_result(a: &RecordedResult, b: &RecordedResult, options: &DiffOptions, se
 }
 
 /// Compares the values of all states.
-pub(super) fn diff_values(left: &Record, right: &Record, options: &DiffOptions, out: &mut Comparison) {
+pub(super) fn diff_values(left: &Record, right: &Record, options: &DiffOptions, out: &mut Differences) {
     let (Some(a), Some(b)) = (&left.values, &right.values) else { return };
     let mut section = Section::new("values", options.most);
     let lengths = match (a, b) {

@@ -26,7 +26,7 @@ mod results;
 mod tolerance;
 mod used_rows;
 
-pub use comparison::{Comparison, Difference, Section};
+pub use comparison::{Difference, Differences, Section};
 pub use diff::{DiffOptions, diff};
 pub use digest::{LabelDigest, ModelDigest, Sizes};
 pub use error::CompareError;

@@ -1,7 +1,9 @@
 //! Asking engines what we know, and comparing.
 
 use super::judge::{Judgement, hull, judge, tolerance};
-use super::{Agreement, Engine, EngineAnswer, Finding, Question, Reply, RunLimits, StrategyFinding, Subject};
+use super::{
+    Agreement, Engine, EngineAnswer, EngineQuestion, Finding, Reply, RunLimits, StrategyFinding, Subject,
+};
 use crate::compare::backup::Backup;
 use crate::compare::record::answer_within;
 use crate::compare::{CompareError, Tolerance};
@@ -20,7 +22,7 @@ pub struct CrossCheckOptions<'a> {
 
 /// What we know about a question.
 struct Ours {
-    question: Question,
+    question: EngineQuestion,
     answer: Answer,
     /// The values of the model with raised lower bounds, where they may be others.
     raised: Option<ValueBounds>,
@@ -38,7 +40,7 @@ pub fn cross_check(
 ) -> Result<Vec<Finding>, CompareError> {
     let ours = |property| Ours::new(subject, property, &options.solver);
     let ours: Vec<Ours> = properties.iter().map(ours).collect::<Result<_, _>>()?;
-    let questions: Vec<Question> = ours.iter().map(|ours| ours.question.clone()).collect();
+    let questions: Vec<EngineQuestion> = ours.iter().map(|ours| ours.question.clone()).collect();
     let mut findings = vec![];
     for engine in engines {
         let replies = engine.ask(subject, &questions, &options.limits);
@@ -55,7 +57,7 @@ impl Ours {
         property: &Property,
         options: &SolverOptions<'_>,
     ) -> Result<Self, CompareError> {
-        let question = Question::new(property, subject.model)?;
+        let question = EngineQuestion::new(property, subject.model)?;
         let answer = answer_within(subject.model, &question.value, options)?;
         let raised = match subject.raised {
             // Within a bounded number of steps it makes no difference in doubles.

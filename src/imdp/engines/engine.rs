@@ -1,6 +1,6 @@
 //! What engines have in common.
 
-use super::{Question, Reply, RunLimits, Subject};
+use super::{EngineQuestion, Reply, RunLimits, Subject};
 
 /// A solver of other people.
 pub trait Engine {
@@ -14,5 +14,5 @@ pub trait Engine {
     fn settled(&self, value: f64) -> f64;
 
     /// Asks every question; one reply for each.
-    fn ask(&self, subject: &Subject<'_>, questions: &[Question], limits: &RunLimits<'_>) -> Vec<Reply>;
+    fn ask(&self, subject: &Subject<'_>, questions: &[EngineQuestion], limits: &RunLimits<'_>) -> Vec<Reply>;
 }

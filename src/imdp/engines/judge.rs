@@ -1,6 +1,6 @@
 //! Whether values agree with bounds.
 
-use super::{Agreement, Question};
+use super::{Agreement, EngineQuestion};
 use crate::compare::Tolerance;
 use crate::model::IntervalMdp;
 use crate::numeric::UNIT_ROUNDOFF;
@@ -20,7 +20,11 @@ pub(super) struct Judgement {
 ///
 /// With a bound on the steps there is rounding only: a step over rows of `m` entries adds at most `(m + 2) 2⁻⁵³`,
 /// for the engine to nearest and for us outwards. Without one it depends on when the engine stops.
-pub(super) fn tolerance(question: &Question, model: &IntervalMdp, stopping: &str) -> (Tolerance, String) {
+pub(super) fn tolerance(
+    question: &EngineQuestion,
+    model: &IntervalMdp,
+    stopping: &str,
+) -> (Tolerance, String) {
     let longest = model.rows().iter().map(|row| row.len()).max().unwrap_or(0) as f64;
     match question.steps() {
         Some(steps) => {

@@ -26,7 +26,7 @@ pub use failure::{EngineFailure, EngineMissing};
 pub use finding::{Agreement, Finding, StrategyFinding};
 pub use prism::Prism;
 pub use process::RunLimits;
-pub use question::{EngineAnswer, Question, Reply, Subject};
+pub use question::{EngineAnswer, EngineQuestion, Reply, Subject};
 pub use raised::raised;
 pub use storm::Storm;
 pub use strategy::Strategy;

@@ -3,7 +3,7 @@
 use super::find::find;
 use super::process::{Ended, RunLimits, run};
 use super::values::parse_values;
-use super::{Engine, EngineAnswer, EngineFailure, EngineMissing, Question, Reply, Strategy, Subject};
+use super::{Engine, EngineAnswer, EngineFailure, EngineMissing, EngineQuestion, Reply, Strategy, Subject};
 use crate::files::StagedDirectory;
 use crate::formats::prism::{TraWriter, write_lab, write_sta};
 use crate::model::{IntervalMdp, ModelKind};
@@ -51,7 +51,7 @@ impl Prism {
         &self,
         subject: &Subject<'_>,
         directory: &Path,
-        question: &Question,
+        question: &EngineQuestion,
         limits: &RunLimits<'_>,
     ) -> (Option<String>, Result<EngineAnswer, EngineFailure>) {
         let (values, strategy) = (directory.join("values.txt"), directory.join("strategy.txt"));
@@ -96,7 +96,7 @@ impl Engine for Prism {
         EPSILON * value
     }
 
-    fn ask(&self, subject: &Subject<'_>, questions: &[Question], limits: &RunLimits<'_>) -> Vec<Reply> {
+    fn ask(&self, subject: &Subject<'_>, questions: &[EngineQuestion], limits: &RunLimits<'_>) -> Vec<Reply> {
         let directory = match stage(subject) {
             Ok(directory) => directory,
             Err((path, error)) => {

@@ -10,7 +10,7 @@ use std::time::Duration;
 
 /// A value that an engine is asked for.
 #[derive(Clone, Debug)]
-pub struct Question {
+pub struct EngineQuestion {
     /// The property as it was given.
     pub property: Property,
     /// The same without its threshold: what the engine computes.
@@ -52,7 +52,7 @@ pub struct Reply {
     pub outcome: Result<EngineAnswer, EngineFailure>,
 }
 
-impl Question {
+impl EngineQuestion {
     /// What a property asks about a model.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 use super::find::find;
 use super::process::{Ended, RunLimits, run};
 use super::values::decode_values;
-use super::{Engine, EngineAnswer, EngineFailure, EngineMissing, Question, Reply, Strategy, Subject};
+use super::{Engine, EngineAnswer, EngineFailure, EngineMissing, EngineQuestion, Reply, Strategy, Subject};
 use crate::files::StagedDirectory;
 use crate::formats::umb::{Compression, UmbWriter};
 use crate::model::{ActionNames, IntervalMdp, Labels, ModelKind, Parts, StateSet, StateVariables};
@@ -82,7 +82,7 @@ impl Storm {
     fn ask_in_one_run(
         &self,
         subject: &Subject<'_>,
-        questions: &[Question],
+        questions: &[EngineQuestion],
         limits: &RunLimits<'_>,
     ) -> Vec<Result<EngineAnswer, EngineFailure>> {
         let directory = match stage(subject.model, questions) {
@@ -122,7 +122,7 @@ impl Engine for Storm {
         PRECISION
     }
 
-    fn ask(&self, subject: &Subject<'_>, questions: &[Question], limits: &RunLimits<'_>) -> Vec<Reply> {
+    fn ask(&self, subject: &Subject<'_>, questions: &[EngineQuestion], limits: &RunLimits<'_>) -> Vec<Reply> {
         let mut outcomes = Vec::with_capacity(questions.len());
         // A question that ends a run takes no other with it.
         while outcomes.len() < questions.len() {
@@ -134,7 +134,7 @@ impl Engine for Storm {
 }
 
 /// A directory with the script, the model and the questions.
-fn stage(model: &IntervalMdp, questions: &[Question]) -> Result<StagedDirectory, EngineFailure> {
+fn stage(model: &IntervalMdp, questions: &[EngineQuestion]) -> Result<StagedDirectory, EngineFailure> {
     let failed = |path: &Path, error| EngineFailure::Files { path: path.to_path_buf(), error };
     let directory = super::scratch().map_err(|error| failed(&std::env::temp_dir(), error))?;
     let at = |name: &str| directory.path().join(name);
@@ -224,7 +224,7 @@ struct Report {
 
 fn read_answer(
     subject: &Subject<'_>,
-    question: &Question,
+    question: &EngineQuestion,
     [report, values, strategy]: &[PathBuf; 3],
     peak_mib: Option<u64>,
 ) -> Result<EngineAnswer, EngineFailure> {

@@ -6,7 +6,7 @@ use crate::compare::CompareError;
 use crate::compare::backup::Backup;
 use crate::model::{IntervalMdp, StateId, restrict};
 use crate::property::{Query, QueryKind, Resolution};
-use crate::solver::{Query as SolverQuery, SolverOptions, solve};
+use crate::solver::{Event, SolverOptions, solve};
 use std::collections::HashMap;
 
 /// The index of the choice taken in a state, always or after a number of steps.
@@ -103,7 +103,7 @@ impl Strategy {
         let failure = |error| CompareError::Strategy { error };
         let keeps = |state, choice| self.choice(state, 0).is_none_or(|taken| taken == choice);
         let induced = restrict(model, keeps).map_err(failure)?;
-        let solved = solve(&induced, &SolverQuery::from(&query.kind), against(query.resolution), options);
+        let solved = solve(&induced, &Event::from(&query.kind), against(query.resolution), options);
         let solved = solved
             .map_err(|error| CompareError::Solve { property: "the engine's strategy".into(), error })?;
         let maximises = query.resolution.policy_maximises();

@@ -1,7 +1,7 @@
 //! The states in which a formula holds.
 
 use super::columns::{Column, evaluate_integer};
-use super::{Comparison, IntegerExpression, PropertyError, StateFormula, closest_name::closest_name};
+use super::{IntegerExpression, PropertyError, Relation, StateFormula, closest_name::closest_name};
 use crate::model::{IntervalMdp, StateId, StateSet, StateVariable, VariableValues};
 
 impl StateFormula {
@@ -98,26 +98,26 @@ pub(super) fn variable<'a>(name: &str, model: &'a IntervalMdp) -> Result<&'a Sta
 
 fn compare(
     left: &IntegerExpression,
-    comparison: Comparison,
+    comparison: Relation,
     right: &IntegerExpression,
     model: &IntervalMdp,
 ) -> Result<StateSet, PropertyError> {
     // Only here is it known what type a variable has.
     if let (Some(left), Some(right)) = (boolean(left, model)?, boolean(right, model)?) {
         match comparison {
-            Comparison::Equal => return Ok(same(left.clone(), right)),
-            Comparison::NotEqual => return Ok(complement(same(left.clone(), right))),
+            Relation::Equal => return Ok(same(left.clone(), right)),
+            Relation::NotEqual => return Ok(complement(same(left.clone(), right))),
             _ => {}
         }
     }
     let (left, right) = (evaluate_integer(left, model)?, evaluate_integer(right, model)?);
     let compares: fn(i64, i64) -> bool = match comparison {
-        Comparison::Equal => |a, b| a == b,
-        Comparison::NotEqual => |a, b| a != b,
-        Comparison::Less => |a, b| a < b,
-        Comparison::LessEqual => |a, b| a <= b,
-        Comparison::Greater => |a, b| a > b,
-        Comparison::GreaterEqual => |a, b| a >= b,
+        Relation::Equal => |a, b| a == b,
+        Relation::NotEqual => |a, b| a != b,
+        Relation::Less => |a, b| a < b,
+        Relation::LessEqual => |a, b| a <= b,
+        Relation::Greater => |a, b| a > b,
+        Relation::GreaterEqual => |a, b| a >= b,
     };
     if let (Column::Constant(a), Column::Constant(b)) = (&left, &right) {
         return Ok(if compares(*a, *b) { all_states(model) } else { no_states(model) });

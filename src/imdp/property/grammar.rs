@@ -8,7 +8,7 @@ use super::lexer::TokenKind;
 use super::parser::{Parser, Result};
 use super::tree::{BinaryOperator, Node, NodeKind, TemporalOperator};
 use super::unsupported;
-use super::{Comparison, ParseErrorKind};
+use super::{ParseErrorKind, Relation};
 
 // How tightly operators bind.
 const IMPLIES: u8 = 0;
@@ -136,12 +136,12 @@ impl Parser<'_> {
             "<=>" => (Infix::Binary(BinaryOperator::Iff), IFF),
             "|" => (Infix::Chain, OR),
             "&" => (Infix::Chain, AND),
-            "=" => (compare(Comparison::Equal), EQUALITY),
-            "!=" => (compare(Comparison::NotEqual), EQUALITY),
-            "<" => (compare(Comparison::Less), RELATION),
-            "<=" => (compare(Comparison::LessEqual), RELATION),
-            ">" => (compare(Comparison::Greater), RELATION),
-            ">=" => (compare(Comparison::GreaterEqual), RELATION),
+            "=" => (compare(Relation::Equal), EQUALITY),
+            "!=" => (compare(Relation::NotEqual), EQUALITY),
+            "<" => (compare(Relation::Less), RELATION),
+            "<=" => (compare(Relation::LessEqual), RELATION),
+            ">" => (compare(Relation::Greater), RELATION),
+            ">=" => (compare(Relation::GreaterEqual), RELATION),
             "+" => (Infix::Binary(BinaryOperator::Add), SUM),
             "-" => (Infix::Binary(BinaryOperator::Subtract), SUM),
             "*" => (Infix::Binary(BinaryOperator::Multiply), PRODUCT),

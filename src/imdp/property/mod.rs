@@ -50,12 +50,12 @@ mod unsupported;
 
 pub use error::PropertyError;
 pub use integer_expression::IntegerExpression;
-pub use parse_error::{ParseError, ParseErrorKind, Position};
+pub use parse_error::{ParseError, ParseErrorKind, TextPosition};
 pub use path_formula::PathFormula;
 pub use query::{Query, QueryKind};
 pub use question::{Objective, Property, Question};
 pub use resolution::{Optimum, Resolution};
-pub use state_formula::{Comparison, StateFormula};
+pub use state_formula::{Relation, StateFormula};
 pub use threshold::{Probability, ProbabilityError, Threshold, ThresholdComparison, Verdict};
 pub use typing::{parse_properties, parse_property};
 

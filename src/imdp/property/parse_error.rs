@@ -10,14 +10,14 @@ pub struct ParseError(Box<Inner>);
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Inner {
-    position: Position,
+    position: TextPosition,
     excerpt: Excerpt,
     kind: ParseErrorKind,
 }
 
 /// A place in a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Position {
+pub struct TextPosition {
     /// Bytes before it.
     pub offset: usize,
     /// The line, from 1.
@@ -113,12 +113,12 @@ impl ParseError {
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         let line = before.bytes().filter(|byte| *byte == b'\n').count() + 1;
         let column = source[line_start..span.start].chars().count() + 1;
-        let position = Position { offset: span.start, line, column };
+        let position = TextPosition { offset: span.start, line, column };
         Self(Box::new(Inner { position, excerpt: Excerpt::new(source, line_start, span), kind }))
     }
 
     /// Where it is.
-    pub fn position(&self) -> Position {
+    pub fn position(&self) -> TextPosition {
         self.0.position
     }
 

@@ -5,7 +5,7 @@ use super::parse_error::Span;
 use super::parser::{Parser, Result};
 use super::tree::{Asked, Node, NodeKind};
 use super::{
-    Comparison, Optimum, ParseErrorKind, Probability, ProbabilityError, Threshold, ThresholdComparison,
+    Optimum, ParseErrorKind, Probability, ProbabilityError, Relation, Threshold, ThresholdComparison,
     unsupported,
 };
 
@@ -89,7 +89,7 @@ impl Parser<'_> {
     }
 
     /// The threshold of `(P…)<comparison><number>`.
-    pub(super) fn verdict_threshold(&self, comparison: Comparison, number: &Node) -> Result<Threshold> {
+    pub(super) fn verdict_threshold(&self, comparison: Relation, number: &Node) -> Result<Threshold> {
         let comparison = ThresholdComparison::from_comparison(comparison)
             .ok_or_else(|| self.wrong_kind(number, "one of >=, >, <= and < before a threshold"))?;
         match number.kind {

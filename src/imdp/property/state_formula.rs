@@ -28,12 +28,12 @@ pub enum StateFormula {
     /// `a != b` of formulas: holds where exactly one of them does.
     Differ(Box<Self>, Box<Self>),
     /// Compares two integers; also `=` and `!=` of two Boolean variables, which look the same.
-    Compare(IntegerExpression, Comparison, IntegerExpression),
+    Compare(IntegerExpression, Relation, IntegerExpression),
 }
 
 /// How two integers are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Comparison {
+pub enum Relation {
     /// `=`
     Equal,
     /// `!=`
@@ -145,7 +145,7 @@ impl fmt::Display for StateFormula {
     }
 }
 
-impl fmt::Display for Comparison {
+impl fmt::Display for Relation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Equal => "=",

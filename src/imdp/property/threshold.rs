@@ -5,7 +5,7 @@ use std::fmt;
 use num_bigint::BigInt;
 use num_traits::{One, Pow, Zero};
 
-use super::Comparison;
+use super::Relation;
 use crate::numeric::{Rational, from_decimal, from_dyadic, shortest_decimal, to_f64};
 
 /// More digits or a larger exponent than this say nothing about a probability, but could fill the memory.
@@ -140,13 +140,13 @@ impl ThresholdComparison {
         matches!(self, Self::AtLeast | Self::Above)
     }
 
-    pub(super) fn from_comparison(comparison: Comparison) -> Option<Self> {
+    pub(super) fn from_comparison(comparison: Relation) -> Option<Self> {
         Some(match comparison {
-            Comparison::GreaterEqual => Self::AtLeast,
-            Comparison::Greater => Self::Above,
-            Comparison::LessEqual => Self::AtMost,
-            Comparison::Less => Self::Below,
-            Comparison::Equal | Comparison::NotEqual => return None,
+            Relation::GreaterEqual => Self::AtLeast,
+            Relation::Greater => Self::Above,
+            Relation::LessEqual => Self::AtMost,
+            Relation::Less => Self::Below,
+            Relation::Equal | Relation::NotEqual => return None,
         })
     }
 

@@ -1,7 +1,7 @@
 //! Expressions of PRISM's language, before it is known which are formulas and which are integers.
 
 use super::parse_error::Span;
-use super::{Comparison, Optimum, Threshold};
+use super::{Optimum, Relation, Threshold};
 
 /// An expression and where it stands. Parentheses leave no trace.
 #[derive(Debug)]
@@ -38,7 +38,7 @@ pub(super) enum NodeKind {
 pub(super) enum BinaryOperator {
     Implies,
     Iff,
-    Compare(Comparison),
+    Compare(Relation),
     Add,
     Subtract,
     Multiply,

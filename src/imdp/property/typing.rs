@@ -5,7 +5,7 @@ use super::parser::{Parser, Result};
 use super::tree::{Asked, BinaryOperator, Node, NodeKind, TemporalOperator};
 use super::unsupported;
 use super::{
-    Comparison, IntegerExpression, ParseError, ParseErrorKind, PathFormula, Property, Question, StateFormula,
+    IntegerExpression, ParseError, ParseErrorKind, PathFormula, Property, Question, Relation, StateFormula,
 };
 
 /// Reads one property.
@@ -141,12 +141,12 @@ impl Parser<'_> {
     }
 
     /// `=` and `!=` also compare formulas, and then mean `<=>` and its negation.
-    fn comparison(&self, comparison: Comparison, left: &Node, right: &Node) -> Result<StateFormula> {
-        let is_equality = matches!(comparison, Comparison::Equal | Comparison::NotEqual);
+    fn comparison(&self, comparison: Relation, left: &Node, right: &Node) -> Result<StateFormula> {
+        let is_equality = matches!(comparison, Relation::Equal | Relation::NotEqual);
         if is_equality && (is_formula(left) || is_formula(right)) {
             let (left, right) = (Box::new(self.formula(left)?), Box::new(self.formula(right)?));
             return Ok(match comparison {
-                Comparison::Equal => StateFormula::Iff(left, right),
+                Relation::Equal => StateFormula::Iff(left, right),
                 _ => StateFormula::Differ(left, right),
             });
         }

@@ -1,7 +1,7 @@
 //! A property answered: bounds at the initial states and a verdict.
 
-use super::{Query as SolverQuery, Solution, SolveError, SolverOptions, ValueBounds, solve};
-use crate::certificate::{Certificate, ModelFile};
+use super::{Event, Solution, SolveError, SolverOptions, ValueBounds, solve};
+use crate::certificate::{Certificate, FileDigest};
 use crate::model::{IntervalMdp, StateId};
 use crate::property::{Objective, Property, PropertyError, Query, Verdict};
 
@@ -47,7 +47,7 @@ impl Answer {
     ) -> Result<Self, AnswerError> {
         let objective = property.resolve(model.kind())?;
         let query = objective.query(model)?;
-        let solution = solve(model, &SolverQuery::from(&query.kind), query.resolution, options)?;
+        let solution = solve(model, &Event::from(&query.kind), query.resolution, options)?;
         let values = if query.complement { solution.values.complement() } else { solution.values.clone() };
         let initial = || model.initial().ones();
         let lower = initial().map(|s| values.lower[s]).fold(1.0, f64::min);
@@ -62,7 +62,7 @@ impl Answer {
     ///
     /// The evidence, which may be large, moves into it: `None` the second time, or if the options did not
     /// ask for evidence.
-    pub fn certificate(&mut self, property: &Property, files: Vec<ModelFile>) -> Option<Certificate> {
+    pub fn certificate(&mut self, property: &Property, files: Vec<FileDigest>) -> Option<Certificate> {
         let evidence = self.solution.evidence.take()?;
         let (property, states) = (property.clone(), self.values.lower.len() as u64);
         Some(Certificate { property, files, states, lower: self.lower, upper: self.upper, evidence })

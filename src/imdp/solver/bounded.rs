@@ -3,10 +3,10 @@
 //! `V_0 = 1_goal`, `V_{k+1}(s) = opt_a opt_p p·V_k` for safe states that are not goal states.
 
 use super::evidence::Recorder;
-use super::expectation::Side;
+use super::expectation::Bound;
 use super::options::Control;
 use super::policy::{NO_CHOICE, first_choice};
-use super::query::{Optimum, Players};
+use super::query::{Direction, Players};
 use super::range_optimum::RangeOptimum;
 use super::sweep::Sweep;
 use super::{Policy, Solution, SolveError, SolverOptions, Status, ValueBounds};
@@ -135,8 +135,8 @@ impl<'a> Iteration<'a> {
         if let Some(recorder) = &mut recorder {
             recorder.begin()?;
         }
-        self.sweep.evaluate_rows(&self.lower, Side::Lower, &mut self.lower_rows);
-        self.sweep.evaluate_rows(&self.upper, Side::Upper, &mut self.upper_rows);
+        self.sweep.evaluate_rows(&self.lower, Bound::Lower, &mut self.lower_rows);
+        self.sweep.evaluate_rows(&self.upper, Bound::Upper, &mut self.upper_rows);
         self.sweep.evaluate_states(&self.lower_rows, &mut self.results);
         for (i, (&s, &value)) in self.sweep.states.iter().zip(&self.results).enumerate() {
             let old = &mut self.lower[s as usize];
@@ -177,11 +177,11 @@ impl<'a> Iteration<'a> {
     fn update_policy(&mut self, left: u64) {
         let Some(current) = &mut self.current else { return };
         let optimum = self.players.policy;
-        let table = if optimum == Optimum::Max { &self.lower_rows } else { &self.upper_rows };
+        let table = if optimum == Direction::Max { &self.lower_rows } else { &self.upper_rows };
         let (choices, weights) = (self.model.choices(), table.values());
         for (&s, &raised) in self.sweep.states.iter().zip(&self.raised) {
             let now = &mut current[s as usize];
-            if optimum == Optimum::Max && !raised && *now != NO_CHOICE {
+            if optimum == Direction::Max && !raised && *now != NO_CHOICE {
                 continue;
             }
             let best = table.best(choices.ranges(s));

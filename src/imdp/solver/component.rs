@@ -8,8 +8,8 @@
 //! and whatever led to the guess. In end components, where a maximising side can stay for ever, any common
 //! value reproduces itself; there the guess is made level, or it would never be accepted.
 
-use super::expectation::Side;
-use super::guess::{Levels, levels};
+use super::expectation::Bound;
+use super::guess::{LevelSets, levels};
 use super::options::{Control, Status};
 use super::query::Players;
 use super::range_optimum::RangeOptimum;
@@ -128,7 +128,7 @@ impl<'s, 'a> Component<'s, 'a> {
     /// `L := max(L, T(L))`; returns the largest change.
     fn raise_lower(&mut self) -> f64 {
         let shared = &mut *self.shared;
-        self.sweep.evaluate_rows(&shared.lower, Side::Lower, &mut shared.lower_rows);
+        self.sweep.evaluate_rows(&shared.lower, Bound::Lower, &mut shared.lower_rows);
         self.sweep.evaluate_states(&shared.lower_rows, &mut self.results);
         let mut largest: f64 = 0.0;
         for (i, &s) in self.sweep.states.iter().enumerate() {
@@ -155,7 +155,7 @@ impl<'s, 'a> Component<'s, 'a> {
         let raised = |&s: &StateId| (self.shared.lower[s as usize] + behind + margin).min(1.0);
         let mut iterate: Vec<f64> = states.iter().map(raised).collect();
         let old: Vec<f64> = states.iter().map(|&s| self.shared.upper[s as usize]).collect();
-        if self.is_inductive(&iterate, &Levels::default()) {
+        if self.is_inductive(&iterate, &LevelSets::default()) {
             self.accept(&old);
             return true;
         }
@@ -193,7 +193,7 @@ impl<'s, 'a> Component<'s, 'a> {
     /// takes, divided by how much it moves. So much is missing in its guess too, and plain iteration would
     /// have to regain it as slowly. Raises by at most `room`: values near 1 would be accepted, but say nothing.
     /// Leaves `T` of the candidate in the results if it fails.
-    fn leap_up(&mut self, candidate: &[f64], levels: &Levels, room: f64) -> bool {
+    fn leap_up(&mut self, candidate: &[f64], levels: &LevelSets, room: f64) -> bool {
         let image = self.results.clone();
         let mut raised = candidate.to_vec();
         for exponent in 1..=LEAPS {
@@ -214,11 +214,11 @@ impl<'s, 'a> Component<'s, 'a> {
     }
 
     /// Whether `T(U) ≤ U` with upward rounding; leaves `U` in the upper bounds and `T(U)` in the results.
-    fn is_inductive(&mut self, candidate: &[f64], levels: &Levels) -> bool {
+    fn is_inductive(&mut self, candidate: &[f64], levels: &LevelSets) -> bool {
         let shared = &mut *self.shared;
         let states = &self.sweep.states;
         states.iter().zip(candidate).for_each(|(&s, &u)| shared.upper[s as usize] = u);
-        self.sweep.evaluate_rows(&shared.upper, Side::Upper, &mut shared.upper_rows);
+        self.sweep.evaluate_rows(&shared.upper, Bound::Upper, &mut shared.upper_rows);
         if levels.cap(candidate, shared.upper_rows.values_mut()) {
             shared.upper_rows.rebuild();
         }
@@ -241,8 +241,8 @@ impl<'s, 'a> Component<'s, 'a> {
     /// Leaves in both tables what the final bounds say about the rows.
     fn finish(&mut self) {
         let shared = &mut *self.shared;
-        self.sweep.evaluate_rows(&shared.lower, Side::Lower, &mut shared.lower_rows);
-        self.sweep.evaluate_rows(&shared.upper, Side::Upper, &mut shared.upper_rows);
+        self.sweep.evaluate_rows(&shared.lower, Bound::Lower, &mut shared.lower_rows);
+        self.sweep.evaluate_rows(&shared.upper, Bound::Upper, &mut shared.upper_rows);
         shared.lower_rows.reset();
         shared.upper_rows.reset();
         self.sweep.rows().for_each(|row| shared.own_rows.set(row as usize, false));

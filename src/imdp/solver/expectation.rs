@@ -25,13 +25,13 @@
 //!   when a bound from below is wanted.
 //! - Finally the result lies between the smallest and the largest value of the row (where `u > 0`).
 
-use super::query::Optimum;
+use super::query::Direction;
 use crate::model::{Row, RowId, Rows};
 use crate::numeric::rounding_factor;
 
 /// Which side of the exact value a result is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
+pub(super) enum Bound {
     /// At most the exact value.
     Lower,
     /// At least the exact value.
@@ -60,7 +60,13 @@ impl RowBlock {
     }
 
     /// The expectations of the rows of the block, in their order.
-    pub(super) fn evaluate(&mut self, all: &Rows, values: &[f64], nature: Optimum, side: Side) -> Vec<f64> {
+    pub(super) fn evaluate(
+        &mut self,
+        all: &Rows,
+        values: &[f64],
+        nature: Direction,
+        side: Bound,
+    ) -> Vec<f64> {
         let Self { rows, order, slacks, scratch } = self;
         let mut order = &mut order[..];
         let expectations = rows.iter().zip(slacks).map(|(&id, slack)| {
@@ -76,7 +82,7 @@ impl RowBlock {
 /// The least expectation of `values ≥ 0` that each row allows, rounded down.
 pub fn worst_expectations(rows: &Rows, values: &[f64]) -> Vec<f64> {
     let all = (0..rows.len() as RowId).collect();
-    RowBlock::new(rows, all).evaluate(rows, values, Optimum::Min, Side::Lower)
+    RowBlock::new(rows, all).evaluate(rows, values, Direction::Min, Bound::Lower)
 }
 
 /// `1 − Σ l`, to nearest.
@@ -89,8 +95,8 @@ fn expectation(
     (row, slack): (Row<'_>, f64),
     values: &[f64],
     (order, scratch): (&mut [u32], &mut Vec<f64>),
-    nature: Optimum,
-    side: Side,
+    nature: Direction,
+    side: Bound,
 ) -> f64 {
     if order.len() < 2 {
         // A single successor has all the mass.
@@ -110,20 +116,20 @@ fn expectation(
     // `rounding_factor` doubles: this is η = (2m + 8)ε.
     let margin = rounding_factor(row.len() + 4);
     let slack = match side {
-        Side::Lower => (slack - margin).max(0.0),
-        Side::Upper => (slack + margin).max(0.0),
+        Bound::Lower => (slack - margin).max(0.0),
+        Bound::Upper => (slack + margin).max(0.0),
     };
     let poured = match nature {
-        Optimum::Min => {
+        Direction::Min => {
             let (poured, left) = pour(row, scratch, slack, order.iter());
-            if side == Side::Upper { poured + left * highest } else { poured }
+            if side == Bound::Upper { poured + left * highest } else { poured }
         }
-        Optimum::Max => pour(row, scratch, slack, order.iter().rev()).0,
+        Direction::Max => pour(row, scratch, slack, order.iter().rev()).0,
     };
     let factor = rounding_factor(2 * row.len() + 8);
     match side {
-        Side::Lower => ((base + poured) * (1.0 - factor) - UNDERFLOW).max(lowest).min(highest),
-        Side::Upper => ((base + poured) * (1.0 + factor) + UNDERFLOW).min(highest).max(lowest),
+        Bound::Lower => ((base + poured) * (1.0 - factor) - UNDERFLOW).max(lowest).min(highest),
+        Bound::Upper => ((base + poured) * (1.0 + factor) + UNDERFLOW).min(highest).max(lowest),
     }
 }
 
@@ -161,10 +167,10 @@ fn pour<'a>(
 }
 
 /// The distribution that attains the optimum, up to rounding: `p − l` by position.
-pub(super) fn poured_mass(row: Row<'_>, values: &[f64], nature: Optimum) -> Vec<f64> {
+pub(super) fn poured_mass(row: Row<'_>, values: &[f64], nature: Direction) -> Vec<f64> {
     let mut order: Vec<usize> = (0..row.len()).collect();
     order.sort_by(|&i, &j| values[row.successors[i] as usize].total_cmp(&values[row.successors[j] as usize]));
-    if nature == Optimum::Max {
+    if nature == Direction::Max {
         order.reverse();
     }
     let mut left = slack(row).max(0.0);

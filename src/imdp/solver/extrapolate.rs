@@ -11,9 +11,9 @@
 //! surely ends is bounded by what it ends with.
 
 use super::component::Component;
-use super::expectation::{Side, poured_mass};
+use super::expectation::{Bound, poured_mass};
 use super::graph::can_stay;
-use super::query::Optimum;
+use super::query::Direction;
 use crate::model::{RowId, StateId};
 use std::collections::HashMap;
 
@@ -51,7 +51,7 @@ impl Component<'_, '_> {
     /// Whether the current lower bounds satisfy both conditions.
     fn is_justified(&mut self, states: &[StateId]) -> bool {
         let shared = &mut *self.shared;
-        self.sweep.evaluate_rows(&shared.lower, Side::Lower, &mut shared.lower_rows);
+        self.sweep.evaluate_rows(&shared.lower, Bound::Lower, &mut shared.lower_rows);
         let choices = shared.model.choices();
         let holds = |&s: &StateId| shared.lower_rows.best(choices.ranges(s)) >= shared.lower[s as usize];
         states.iter().all(holds) && self.is_left(states)
@@ -63,15 +63,15 @@ impl Component<'_, '_> {
         let all = shared.model.rows();
         let is_own = |row: &RowId| shared.own_rows.contains(*row as usize);
         let supports: HashMap<RowId, Vec<bool>> = match shared.players.nature {
-            Optimum::Min => HashMap::new(),
-            Optimum::Max => self.sweep.rows().map(|id| (id, self.certain_support(id))).collect(),
+            Direction::Min => HashMap::new(),
+            Direction::Max => self.sweep.rows().map(|id| (id, self.certain_support(id))).collect(),
         };
         // Only the maximising side's choice is fixed.
         let rows_of = |s: StateId| -> Vec<RowId> {
             let rows = shared.model.choices().rows(s);
             match shared.players.policy {
-                Optimum::Min => rows.filter(is_own).collect(),
-                Optimum::Max => {
+                Direction::Min => rows.filter(is_own).collect(),
+                Direction::Max => {
                     let best = shared.lower_rows.best(shared.model.choices().ranges(s));
                     let attains = |row: &RowId| shared.lower_rows.values()[*row as usize] == best;
                     rows.filter(attains).take(1).filter(is_own).collect()
@@ -90,8 +90,8 @@ impl Component<'_, '_> {
             left.retain(|(s, rows)| {
                 let contained = |s: StateId| position(s).is_some_and(|i| inside[i]);
                 let stays = rows.iter().any(|id| match shared.players.nature {
-                    Optimum::Min => can_stay(all.row(*id), &contained),
-                    Optimum::Max => {
+                    Direction::Min => can_stay(all.row(*id), &contained),
+                    Direction::Max => {
                         let support = supports.get(id).map_or(&[][..], |support| support);
                         all.row(*id).successors.iter().zip(support).all(|(s, sure)| !sure || contained(*s))
                     }
@@ -115,7 +115,7 @@ impl Component<'_, '_> {
     fn certain_support(&self, id: RowId) -> Vec<bool> {
         let row = self.shared.model.rows().row(id);
         let doubtful = crate::numeric::rounding_factor(2 * row.len() + 8);
-        let poured = poured_mass(row, &self.shared.lower, Optimum::Max);
+        let poured = poured_mass(row, &self.shared.lower, Direction::Max);
         poured.iter().zip(row.lower).map(|(p, l)| *l > 0.0 || *p > doubtful).collect()
     }
 }

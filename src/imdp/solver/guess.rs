@@ -3,13 +3,13 @@
 use super::component::{Component, Shared};
 use super::expectation::poured_mass;
 use super::graph::{Candidates, can_stay, end_components, stays};
-use super::query::Optimum;
+use super::query::Direction;
 use crate::model::{RowId, StateId};
 use std::collections::HashMap;
 
 /// Where upper bounds must be level, and the rows that cannot raise them there.
 #[derive(Default)]
-pub(super) struct Levels {
+pub(super) struct LevelSets {
     /// End components, as positions in the component's states.
     classes: Vec<Vec<u32>>,
     /// Rows with `opt_p p·U ≤ max_C U` for a class `C`, decided exactly: rounding must not matter there.
@@ -18,7 +18,7 @@ pub(super) struct Levels {
     capped: Vec<(RowId, usize)>,
 }
 
-impl Levels {
+impl LevelSets {
     /// Raises a candidate to its maximum over each class.
     pub(super) fn raise(&self, candidate: &mut [f64]) {
         for class in &self.classes {
@@ -45,15 +45,15 @@ fn maximum(class: &[u32], candidate: &[f64]) -> f64 {
 /// The end components of the maximising side.
 ///
 /// Every minimising side is fixed to what is best for the current lower bounds.
-pub(super) fn levels(component: &Component<'_, '_>) -> Levels {
+pub(super) fn levels(component: &Component<'_, '_>) -> LevelSets {
     let shared = &*component.shared;
     let players = shared.players;
-    if (players.policy, players.nature) == (Optimum::Min, Optimum::Min) {
+    if (players.policy, players.nature) == (Direction::Min, Direction::Min) {
         // Who minimises in an end component stays there for value 0: such states are known already.
-        return Levels::default();
+        return LevelSets::default();
     }
     let rows: Vec<RowId> = component.sweep.rows().collect();
-    let supports: Option<Vec<Vec<bool>>> = (players.nature == Optimum::Min)
+    let supports: Option<Vec<Vec<bool>>> = (players.nature == Direction::Min)
         .then(|| rows.iter().map(|&id| minimal_support(shared, id)).collect());
     // Most rows can leave for a finished state: they are in no end component.
     let inside = |s: StateId| component.sweep.states.binary_search(&s).is_ok();
@@ -67,14 +67,14 @@ pub(super) fn levels(component: &Component<'_, '_>) -> Levels {
     let staying = (0..rows.len()).filter(|&i| may_stay(i)).map(|i| (rows[i], i as u32));
     let position: HashMap<RowId, u32> = staying.collect();
     if position.is_empty() {
-        return Levels::default();
+        return LevelSets::default();
     }
     let choices_of = |&s: &StateId| -> Vec<u32> {
         let ranges = shared.model.choices().ranges(s);
         let all = shared.model.choices().rows(s);
         match players.policy {
-            Optimum::Max => all.filter_map(|row| position.get(&row).copied()).collect(),
-            Optimum::Min => {
+            Direction::Max => all.filter_map(|row| position.get(&row).copied()).collect(),
+            Direction::Min => {
                 let best = shared.lower_rows.best(ranges);
                 let attains = |row: &RowId| shared.lower_rows.values()[*row as usize] <= best;
                 all.filter(attains).take(1).filter_map(|row| position.get(&row).copied()).collect()
@@ -85,7 +85,7 @@ pub(super) fn levels(component: &Component<'_, '_>) -> Levels {
     let part = Candidates { model: shared.model, states: &component.sweep.states, choices, supports, rows };
     let classes = end_components(&part);
     let capped = capped_rows(component, &classes, &part.rows);
-    Levels { classes, capped }
+    LevelSets { classes, capped }
 }
 
 fn capped_rows(component: &Component<'_, '_>, classes: &[Vec<u32>], rows: &[RowId]) -> Vec<(RowId, usize)> {
@@ -112,6 +112,6 @@ fn minimal_support(shared: &Shared<'_>, id: RowId) -> Vec<bool> {
     let row = shared.model.rows().row(id);
     // Less than this is what rounding leaves over.
     let negligible = crate::numeric::rounding_factor(row.len() + 4);
-    let poured = poured_mass(row, &shared.lower, Optimum::Min);
+    let poured = poured_mass(row, &shared.lower, Direction::Min);
     poured.iter().zip(row.lower).map(|(p, l)| *l > 0.0 || *p > negligible).collect()
 }

@@ -41,7 +41,7 @@ pub use expectation::worst_expectations;
 pub use options::{Control, SolverOptions, Status};
 pub use policy::{NO_CHOICE, Policy};
 pub use prune::{PruneError, Pruned};
-pub use query::{Query, SolveError};
+pub use query::{Event, SolveError};
 pub use solution::{Solution, ValueBounds};
 
 use crate::model::IntervalMdp;
@@ -54,7 +54,7 @@ use crate::property::Resolution;
 /// is not an error but the [`Status`] of the solution.
 pub fn solve(
     model: &IntervalMdp,
-    query: &Query<'_>,
+    query: &Event<'_>,
     resolution: Resolution,
     options: &SolverOptions<'_>,
 ) -> Result<Solution, SolveError> {
@@ -66,10 +66,10 @@ pub fn solve(
     working_memory::require_working_memory(model)?;
     let players = resolution.into();
     match *query {
-        Query::Next { goal } => bounded::next(model, goal, players, options),
-        Query::Until { safe, goal, steps: Some(steps) } => {
+        Event::Next { goal } => bounded::next(model, goal, players, options),
+        Event::Until { safe, goal, steps: Some(steps) } => {
             bounded::until(model, (safe, goal, steps), players, options)
         }
-        Query::Until { safe, goal, steps: None } => unbounded::until(model, safe, goal, players, options),
+        Event::Until { safe, goal, steps: None } => unbounded::until(model, safe, goal, players, options),
     }
 }

@@ -5,7 +5,7 @@ use crate::property::{QueryKind, Resolution};
 
 /// An event whose probability is wanted, for every initial state at once.
 #[derive(Clone, Copy, Debug)]
-pub enum Query<'a> {
+pub enum Event<'a> {
     /// `safe U goal`, or `safe U<=k goal`. A goal state counts whether it is safe or not.
     Until {
         /// The states allowed on the way.
@@ -22,7 +22,7 @@ pub enum Query<'a> {
     },
 }
 
-impl<'a> From<&'a QueryKind> for Query<'a> {
+impl<'a> From<&'a QueryKind> for Event<'a> {
     fn from(kind: &'a QueryKind) -> Self {
         match kind {
             QueryKind::Until { safe, goal, steps } => Self::Until { safe, goal, steps: *steps },
@@ -55,7 +55,7 @@ pub enum SolveError {
     Memory(#[from] MemoryError),
 }
 
-impl Query<'_> {
+impl Event<'_> {
     pub(super) fn check(&self, model: &IntervalMdp) -> Result<(), SolveError> {
         let states = model.num_states();
         let check = |what, set: &StateSet| match set.len() {
@@ -71,7 +71,7 @@ impl Query<'_> {
 
 /// Which way one of the two players pulls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Optimum {
+pub(super) enum Direction {
     Min,
     Max,
 }
@@ -79,13 +79,13 @@ pub(super) enum Optimum {
 /// The directions of both players.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Players {
-    pub policy: Optimum,
-    pub nature: Optimum,
+    pub policy: Direction,
+    pub nature: Direction,
 }
 
 impl From<Resolution> for Players {
     fn from(resolution: Resolution) -> Self {
-        use Optimum::{Max, Min};
+        use Direction::{Max, Min};
         let (policy, nature) = match resolution {
             Resolution::Pmaxmin => (Max, Min),
             Resolution::Pmaxmax => (Max, Max),
@@ -96,7 +96,7 @@ impl From<Resolution> for Players {
     }
 }
 
-impl Optimum {
+impl Direction {
     /// Whether `a` is strictly preferred to `b`.
     pub(super) fn prefers(self, a: f64, b: f64) -> bool {
         match self {

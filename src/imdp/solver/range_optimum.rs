@@ -1,6 +1,6 @@
 //! The best row of a range of rows, for many overlapping ranges.
 
-use super::query::Optimum;
+use super::query::Direction;
 use crate::model::{Choices, RowRange, StateId};
 
 /// A sparse table: `level k` holds the optimum of every `2ᵏ` neighbouring rows.
@@ -8,13 +8,13 @@ use crate::model::{Choices, RowRange, StateId};
 /// A range is covered by two overlapping entries of one level; levels end at the longest range asked for.
 #[derive(Clone, Debug)]
 pub(super) struct RangeOptimum {
-    optimum: Optimum,
+    optimum: Direction,
     levels: Vec<Vec<f64>>,
 }
 
 impl RangeOptimum {
     /// For `rows` rows; without [`RangeOptimum::prepare`], ranges are scanned.
-    pub(super) fn new(optimum: Optimum, rows: usize) -> Self {
+    pub(super) fn new(optimum: Direction, rows: usize) -> Self {
         Self { optimum, levels: vec![vec![0.0; rows]] }
     }
 
@@ -51,13 +51,13 @@ impl RangeOptimum {
             let (below, above) = (&below[level - 1], &mut above[0]);
             let pairs = below.iter().zip(below.iter().skip(half));
             match self.optimum {
-                Optimum::Max => {
+                Direction::Max => {
                     above
                         .iter_mut()
                         .zip(pairs)
                         .for_each(|(best, (&a, &b))| *best = if a > b { a } else { b });
                 }
-                Optimum::Min => {
+                Direction::Min => {
                     above
                         .iter_mut()
                         .zip(pairs)
@@ -70,8 +70,8 @@ impl RangeOptimum {
     /// The optimum over several ranges.
     pub(super) fn best(&self, ranges: &[RowRange]) -> f64 {
         match self.optimum {
-            Optimum::Max => self.fold(ranges, |a, b| if a > b { a } else { b }),
-            Optimum::Min => self.fold(ranges, |a, b| if a < b { a } else { b }),
+            Direction::Max => self.fold(ranges, |a, b| if a > b { a } else { b }),
+            Direction::Min => self.fold(ranges, |a, b| if a < b { a } else { b }),
         }
     }
 
@@ -100,7 +100,8 @@ mod tests {
     #[test]
     fn agrees_with_a_scan() {
         let values: Vec<f64> = (0..37u32).map(|i| f64::from(i * 7919 % 101)).collect();
-        for (optimum, levels) in [(Optimum::Min, 1), (Optimum::Max, 1), (Optimum::Min, 6), (Optimum::Max, 6)]
+        for (optimum, levels) in
+            [(Direction::Min, 1), (Direction::Max, 1), (Direction::Min, 6), (Direction::Max, 6)]
         {
             let mut table = RangeOptimum::new(optimum, values.len());
             table.levels.resize_with(levels, || vec![0.0; values.len()]);

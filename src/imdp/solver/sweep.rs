@@ -4,7 +4,7 @@
 //! evaluated once, however many states share it. The results do not depend on the number of threads:
 //! every value is computed from the previous values alone.
 
-use super::expectation::{RowBlock, Side};
+use super::expectation::{Bound, RowBlock};
 use super::query::Players;
 use super::range_optimum::RangeOptimum;
 use crate::model::{IntervalMdp, RowId, StateId};
@@ -55,7 +55,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// Evaluates the rows at `values` into the table.
-    pub(super) fn evaluate_rows(&mut self, values: &[f64], side: Side, table: &mut RangeOptimum) {
+    pub(super) fn evaluate_rows(&mut self, values: &[f64], side: Bound, table: &mut RangeOptimum) {
         let (all, nature) = (self.model.rows(), self.players.nature);
         let weights = table.values_mut();
         let mut put = |block: &RowBlock, results: Vec<f64>| {

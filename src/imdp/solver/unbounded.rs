@@ -7,11 +7,11 @@
 use super::bounded::indicator;
 use super::component::{Component, Shared};
 use super::evidence::unlike;
-use super::expectation::Side;
+use super::expectation::Bound;
 use super::graph::{ChoiceTree, ranks, strong_components, zero_one};
 use super::options::Control;
 use super::policy::{NO_CHOICE, first_choice};
-use super::query::{Optimum, Players};
+use super::query::{Direction, Players};
 use super::range_optimum::RangeOptimum;
 use super::sweep::Sweep;
 use super::{Policy, Solution, SolveError, SolverOptions, Status, ValueBounds};
@@ -167,8 +167,8 @@ impl Shared<'_> {
     /// Both bounds on a row whose successors are finished.
     fn evaluate_row(&mut self, row: RowId) {
         let mut sweep = Sweep::new(self.model, self.players, vec![], &[row]);
-        sweep.evaluate_rows(&self.lower, Side::Lower, &mut self.lower_rows);
-        sweep.evaluate_rows(&self.upper, Side::Upper, &mut self.upper_rows);
+        sweep.evaluate_rows(&self.lower, Bound::Lower, &mut self.lower_rows);
+        sweep.evaluate_rows(&self.upper, Bound::Upper, &mut self.upper_rows);
     }
 
     /// Both bounds on a state whose rows are finished.
@@ -184,7 +184,7 @@ impl Shared<'_> {
 
     /// Whether choices must be noted when lower bounds improve.
     pub(super) fn maximises_for_policy(&self) -> bool {
-        self.wants_policy && self.players.policy == Optimum::Max
+        self.wants_policy && self.players.policy == Direction::Max
     }
 
     /// Whether the present choice of a state attains the new lower bound.
@@ -198,8 +198,8 @@ impl Shared<'_> {
     /// Makes the policy choose the best row of a state for the bounds that it must guarantee.
     pub(super) fn choose(&mut self, state: StateId) {
         let table = match self.players.policy {
-            Optimum::Max => &self.lower_rows,
-            Optimum::Min => &self.upper_rows,
+            Direction::Max => &self.lower_rows,
+            Direction::Min => &self.upper_rows,
         };
         let best = table.best(self.model.choices().ranges(state));
         let attains = |row: RowId| table.values()[row as usize] == best;
@@ -209,7 +209,7 @@ impl Shared<'_> {
 
     /// Whether choices must be noted when upper bounds improve.
     pub(super) fn minimises_for_policy(&self) -> bool {
-        self.wants_policy && self.players.policy == Optimum::Min
+        self.wants_policy && self.players.policy == Direction::Min
     }
 
     /// The choices made on the way: `L ≤ T_σ(L)` if the policy maximises, else `U ≥ T_σ(U)`.

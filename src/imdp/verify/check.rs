@@ -4,7 +4,7 @@ use super::one_step::{ExactRows, NO_CHOICE, SideProof};
 use super::ranks::check_ranks;
 use super::task::Task;
 use super::{Rejection, Side};
-use crate::certificate::{Certificate, Evidence, Inductive, ModelFile, Step};
+use crate::certificate::{Certificate, Evidence, FileDigest, Inductive, Step};
 use crate::model::{IntervalMdp, StateId};
 use crate::numeric::{one_minus_down, one_minus_up};
 use crate::property::Verdict;
@@ -33,7 +33,7 @@ pub struct Proved {
 pub fn check(
     certificate: &Certificate,
     model: &IntervalMdp,
-    files: &[ModelFile],
+    files: &[FileDigest],
 ) -> Result<Proved, Rejection> {
     check_files(&certificate.files, files)?;
     let found = model.num_states() as u64;
@@ -66,12 +66,12 @@ pub fn check(
     Ok(Proved { lower, upper, verdict, states: found, steps, rows: evaluated })
 }
 
-fn check_files(expected: &[ModelFile], found: &[ModelFile]) -> Result<(), Rejection> {
+fn check_files(expected: &[FileDigest], found: &[FileDigest]) -> Result<(), Rejection> {
     let missing = || "missing".to_owned();
-    let digest = |files: &[ModelFile], kind: &str| {
+    let digest = |files: &[FileDigest], kind: &str| {
         files.iter().find(|file| file.kind == kind).map_or_else(missing, |file| file.sha256.clone())
     };
-    for ModelFile { kind, .. } in expected.iter().chain(found) {
+    for FileDigest { kind, .. } in expected.iter().chain(found) {
         let (expected, found) = (digest(expected, kind), digest(found, kind));
         if expected != found {
             return Err(Rejection::Model { kind: kind.clone(), found, expected });

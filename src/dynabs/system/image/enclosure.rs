@@ -20,7 +20,7 @@ pub(super) struct Enclosure {
 pub(super) struct Direction {
     /// The number of the variable.
     pub(super) variable: u32,
-    /// The other variables that are functions of it: `v = … − gain · (x − centre)`.
+    /// The other variables that are functions of it: `v = … − gain · (x − center)`.
     pub(super) followers: Vec<Follower>,
 }
 
@@ -44,14 +44,14 @@ pub(super) struct Undefined {
     pub(super) operand: Interval,
 }
 
-/// A box of all variables, the nominal values that followers start from, and the centre they refer to.
+/// A box of all variables, the nominal values that followers start from, and the center they refer to.
 #[derive(Clone, Debug)]
 pub(super) struct VariableBox {
     /// Per variable; entries of followers are ignored.
     pub(super) values: Vec<Interval>,
     /// Per variable: the nominal value of a follower.
     pub(super) nominal: Vec<Interval>,
-    /// Per variable: the centre of the cell.
+    /// Per variable: the center of the cell.
     pub(super) centers: Vec<Interval>,
 }
 

@@ -60,7 +60,7 @@ enum RowKind {
     Enclosed(Box<Enclosure>, VariableBox),
 }
 
-/// The faces and centres of one dimension of the grid, enclosed.
+/// The faces and centers of one dimension of the grid, enclosed.
 #[derive(Clone, Debug)]
 struct AxisFaces {
     cells: Vec<Interval>,

@@ -1,7 +1,7 @@
 //! Random properties print and parse back; random texts are refused without a panic.
 
 use crate::property::{
-    Comparison, IntegerExpression, Optimum, PathFormula, Probability, Property, Question, Resolution,
+    IntegerExpression, Optimum, PathFormula, Probability, Property, Question, Relation, Resolution,
     StateFormula, Threshold, ThresholdComparison, parse_properties,
 };
 use proptest::option;
@@ -26,8 +26,8 @@ fn integer() -> impl Strategy<Value = IntegerExpression> {
     })
 }
 
-fn comparison() -> impl Strategy<Value = Comparison> {
-    use Comparison::{Equal, Greater, GreaterEqual, Less, LessEqual, NotEqual};
+fn comparison() -> impl Strategy<Value = Relation> {
+    use Relation::{Equal, Greater, GreaterEqual, Less, LessEqual, NotEqual};
     prop::sample::select(vec![Equal, NotEqual, Less, LessEqual, Greater, GreaterEqual])
 }
 

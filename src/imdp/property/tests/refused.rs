@@ -1,6 +1,6 @@
 //! Texts that are refused, and the words of the message that matter.
 
-use crate::property::{ParseErrorKind, Position, Property, parse_properties};
+use crate::property::{ParseErrorKind, Property, TextPosition, parse_properties};
 
 const REFUSED: [(&str, &[&str]); 68] = [
     ("", &["1, column 1", "expected a property", "the end"]),
@@ -99,10 +99,10 @@ fn refusals_say_why() {
 #[test]
 fn positions_are_exact() {
     let error = parse_properties("Pmin=? [ F b ];\n\"é\"").unwrap_err();
-    assert_eq!(error.position(), Position { offset: 17, line: 2, column: 2 });
+    assert_eq!(error.position(), TextPosition { offset: 17, line: 2, column: 2 });
     let text = "// é\n  Pmin=? [ F<=0.5 b ]";
     let error = parse_properties(text).unwrap_err();
-    assert_eq!(error.position(), Position { offset: 20, line: 2, column: 15 });
+    assert_eq!(error.position(), TextPosition { offset: 20, line: 2, column: 15 });
     let shown = error.to_string();
     assert_eq!(
         shown.lines().skip(1).collect::<Vec<_>>(),

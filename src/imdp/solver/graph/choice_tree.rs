@@ -1,6 +1,6 @@
 //! Which states can choose a row, without expanding ranges to choices.
 
-use super::super::query::Optimum;
+use super::super::query::Direction;
 use crate::model::{Choices, RowId, StateId};
 
 /// A segment tree over the rows: node `i` has the children `2i` and `2i + 1`, row `r` is leaf `rows + r`.
@@ -60,10 +60,10 @@ impl ChoiceTree {
     }
 
     /// Starts to collect rows.
-    pub(crate) fn collect(&self, policy: Optimum) -> Collector<'_> {
+    pub(crate) fn collect(&self, policy: Direction) -> Collector<'_> {
         let needed = match policy {
-            Optimum::Max => vec![],
-            Optimum::Min => self.nodes.starts.windows(2).map(|pair| (pair[1] - pair[0]) as u32).collect(),
+            Direction::Max => vec![],
+            Direction::Min => self.nodes.starts.windows(2).map(|pair| (pair[1] - pair[0]) as u32).collect(),
         };
         Collector { tree: self, policy, seen: vec![0; 2 * self.rows], needed }
     }
@@ -72,7 +72,7 @@ impl ChoiceTree {
 /// Finds the states one (maximising policy) or all (minimising policy) of whose rows were collected.
 pub(in crate::solver) struct Collector<'a> {
     tree: &'a ChoiceTree,
-    policy: Optimum,
+    policy: Direction,
     /// Per node, how many children are complete (or: whether one was met).
     seen: Vec<u8>,
     /// Per state, how many covering nodes are incomplete.
@@ -87,16 +87,16 @@ impl Collector<'_> {
         while node > 0 {
             self.seen[node] += 1;
             let complete = match self.policy {
-                Optimum::Max => self.seen[node] == 1,
-                Optimum::Min => node == leaf || self.seen[node] == 2,
+                Direction::Max => self.seen[node] == 1,
+                Direction::Min => node == leaf || self.seen[node] == 2,
             };
             if !complete {
                 return;
             }
             for &state in self.tree.states.get(node) {
                 match self.policy {
-                    Optimum::Max => found(state),
-                    Optimum::Min => {
+                    Direction::Max => found(state),
+                    Direction::Min => {
                         self.needed[state as usize] -= 1;
                         if self.needed[state as usize] == 0 {
                             found(state);

@@ -1,6 +1,6 @@
 //! Ranks that show that the states with a positive lower bound are left almost surely.
 
-use super::super::query::{Optimum, Players};
+use super::super::query::{Direction, Players};
 use super::choice_tree::ChoiceTree;
 use super::zero_one::Analysis;
 use crate::exact::maximal_support;
@@ -23,8 +23,8 @@ pub(in crate::solver) fn ranks(
     (0..lower.len()).filter(|&s| !moving.contains(s) || lower[s] == 0.0).for_each(|s| outside.insert(s));
     let open = |s: StateId| !outside.contains(s as usize);
     let tree = match players.policy {
-        Optimum::Min => ChoiceTree::new(model.rows().len(), model.choices(), open),
-        Optimum::Max => {
+        Direction::Min => ChoiceTree::new(model.rows().len(), model.choices(), open),
+        Direction::Max => {
             let mut chosen = ChoicesBuilder::with_capacity(lower.len());
             for state in 0..lower.len() as StateId {
                 let row = model.choices().row_of_choice(state, choices[state as usize]);
@@ -34,9 +34,9 @@ pub(in crate::solver) fn ranks(
             ChoiceTree::new(model.rows().len(), &chosen.finish(), open)
         }
     };
-    let supports = (players.nature == Optimum::Max).then(|| maximal_supports(model.rows(), lower));
+    let supports = (players.nature == Direction::Max).then(|| maximal_supports(model.rows(), lower));
     // Of a support, every distribution is taken to give all of it positive probability.
-    let players = Players { nature: Optimum::Min, ..players };
+    let players = Players { nature: Direction::Min, ..players };
     let rows = supports.as_ref().unwrap_or(model.rows());
     let mut all = StateSet::with_capacity(rows.len());
     all.insert_range(..);

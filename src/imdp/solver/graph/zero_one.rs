@@ -10,7 +10,7 @@
 //! `min(Σ_{X∩Y} u, 1 − Σ_{X∖Y} l) > 0`.
 
 use super::super::policy::{NO_CHOICE, first_choice};
-use super::super::query::{Optimum, Players};
+use super::super::query::{Direction, Players};
 use super::choice_tree::ChoiceTree;
 use super::decide::{compare_with_one, lower_covers_one, margin, upper_covers_one};
 use crate::model::{IntervalMdp, Row, RowId, Rows, StateId, StateSet};
@@ -40,7 +40,7 @@ pub(in crate::solver) fn zero_one(
     allowed.insert_range(..);
     let (positive, made_it) = analysis.attract(&allowed);
     let mut choices = vec![NO_CHOICE; model.num_states()];
-    if players.policy == Optimum::Min {
+    if players.policy == Direction::Min {
         for s in moving.difference(&positive) {
             let stays = |row: RowId| !made_it.contains(row as usize);
             choices[s] = first_choice(model.choices(), s as StateId, stays).unwrap_or(NO_CHOICE);
@@ -59,7 +59,7 @@ pub(in crate::solver) fn zero_one(
         }
         certain = next;
     }
-    if players.policy == Optimum::Max {
+    if players.policy == Direction::Max {
         analysis.attract_with(&allowed, |state, row| {
             let choice = first_choice(model.choices(), state, |other| other == row);
             choices[state as usize] = choice.unwrap_or(NO_CHOICE);
@@ -71,13 +71,13 @@ pub(in crate::solver) fn zero_one(
 /// `Q_p p(X) = 1`: whether every (`Min`) or some (`Max`) distribution of a row stays in a set.
 pub(in crate::solver) fn stays(
     row: Row<'_>,
-    nature: Optimum,
+    nature: Direction,
     inside: impl Fn(StateId) -> bool + Copy,
 ) -> bool {
     let outside = |bounds: &[f64]| row.successors.iter().zip(bounds).all(|(s, b)| inside(*s) || *b == 0.0);
     match nature {
-        Optimum::Min => outside(row.upper) || lower_covers_one(row, inside),
-        Optimum::Max => outside(row.lower) && upper_covers_one(row, inside),
+        Direction::Min => outside(row.upper) || lower_covers_one(row, inside),
+        Direction::Max => outside(row.lower) && upper_covers_one(row, inside),
     }
 }
 
@@ -112,8 +112,8 @@ impl<'a> Analysis<'a> {
         // Running sums of the bounds outside Y: upper ones limit what nature can keep away from Y, lower
         // ones are what a maximising nature must waste.
         let bounds = |row: Row<'_>, i: usize| match self.players.nature {
-            Optimum::Min => row.upper[i],
-            Optimum::Max => row.lower[i],
+            Direction::Min => row.upper[i],
+            Direction::Max => row.lower[i],
         };
         let mut outside: Vec<f64> =
             rows.iter().map(|row| (0..row.len()).map(|i| bounds(row, i)).sum()).collect();
@@ -145,7 +145,7 @@ impl<'a> Analysis<'a> {
 
     /// `Q_p p(Y) > 0` for a row whose successor `i` has just joined `Y`.
     fn hits(&self, row: Row<'_>, reached: &StateSet, outside: f64, i: usize) -> bool {
-        if self.players.nature == Optimum::Min && row.lower[i] > 0.0 {
+        if self.players.nature == Direction::Min && row.lower[i] > 0.0 {
             return true;
         }
         let inside = |j: &usize| reached.contains(row.successors[*j] as usize);
@@ -155,7 +155,7 @@ impl<'a> Analysis<'a> {
         if !(0..row.len()).any(|j| row.upper[j] > 0.0 && inside(&j)) {
             return false;
         }
-        let bounds = if self.players.nature == Optimum::Min { row.upper } else { row.lower };
+        let bounds = if self.players.nature == Direction::Min { row.upper } else { row.lower };
         outside < 1.0 - margin(row.len())
             || compare_with_one((0..row.len()).filter(|j| !inside(j)).map(|j| bounds[j])) == Ordering::Less
     }
