@@ -17,6 +17,7 @@ mod formats;
 mod guarantee;
 mod import;
 mod intervals;
+mod memory;
 mod native;
 mod open;
 mod output;
