@@ -258,7 +258,7 @@ fn compare_with_c(compiler: &str, closed: &Loop, seed: u64) {
     for ((x, k), answer) in queries.iter().zip(program.stdout.chunks_exact(size)) {
         let mut u = vec![0.0; controller.inputs()];
         let status: u32 = match controller.control(x, u64::from(*k), &mut u) {
-            Decision::Steer { .. } => 0,
+            Decision::Steer { .. } | Decision::Apply { .. } => 0,
             Decision::Reached => 1,
             Decision::Unsafe => 2,
             Decision::Outside => 3,

@@ -3,6 +3,7 @@
 use crate::common::{abstraction, root};
 use assert_cmd::Command;
 use dynabs::guarantee::{Coverage, Event, Evidence, Gap, Guarantee, Safety, SampleEvidence};
+use dynabs::landing::Aim;
 use imdp::model::{
     ActionNames, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowRange, Rows, StateSet,
     StateVariables, VariableValues,
@@ -171,7 +172,7 @@ fn small_model() -> IntervalMdp {
 fn guarantee() -> Guarantee {
     let samples = SampleEvidence { number: 100, beta: 0.01, sweep: 1, budget: vec![], unseen_mass: 0.1 };
     Guarantee {
-        event: Event { horizon: None, group_steps: 1, safety: Safety::EveryStep },
+        event: Event { aim: Aim::Reach, horizon: None, group_steps: 1, safety: Safety::EveryStep },
         evidence: Evidence::Samples(samples),
     }
 }

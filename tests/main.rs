@@ -19,6 +19,7 @@ mod import;
 mod intervals;
 mod memory;
 mod native;
+mod noise_masses;
 mod open;
 mod output;
 mod paper;

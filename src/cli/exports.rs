@@ -62,6 +62,31 @@ pub(super) fn write_policy(model: &IntervalMdp, policy: &Policy, out: &mut impl 
     Ok(())
 }
 
+/// Writes the lower bound of every cell, one per line.
+///
+/// # Errors
+/// What writing gives.
+pub(super) fn write_cell_values(lower: &[f64], out: &mut impl Write) -> io::Result<()> {
+    lower.iter().try_for_each(|&value| writeln!(out, "{}", imdp::numeric::shortest_decimal(value)))
+}
+
+/// Writes `cell=input`, or `cell,step=input` for a policy that changes over time; a step counts the steps elapsed.
+///
+/// # Errors
+/// What writing gives.
+pub(super) fn write_cell_policy(policy: &Policy, cells: u32, out: &mut impl Write) -> io::Result<()> {
+    for cell in 0..cells {
+        for step in 0..policy.horizon().unwrap_or(1) {
+            match (policy.choice(cell, step), policy.horizon()) {
+                (None, _) => {}
+                (Some(input), None) => writeln!(out, "{cell}=u_{input}")?,
+                (Some(input), Some(_)) => writeln!(out, "{cell},{step}=u_{input}")?,
+            }
+        }
+    }
+    Ok(())
+}
+
 /// Per state, the number of choices of the states before it.
 fn first_choices(model: &IntervalMdp) -> Vec<u64> {
     let choices = model.choices();

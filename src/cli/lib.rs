@@ -5,6 +5,8 @@ pub mod commands;
 mod crosscheck_table;
 mod error;
 mod exports;
+mod input_run_source;
+mod input_summary;
 mod model_source;
 mod output;
 mod progress;

@@ -2,9 +2,10 @@
 
 use super::simulation_noise::ChosenNoise;
 use super::{CliError, thousands, warn};
-use dynabs::controller::{Controller, Frequency, Tally};
-use dynabs::guarantee::lower_bound_text;
-use dynabs::run::Run;
+use dynabs::controller::{Controller, Frequency, InputController, Tally};
+use dynabs::guarantee::{Guarantee, lower_bound_text};
+use dynabs::landing::Aim;
+use dynabs::run::{InputRun, Run};
 use imdp::numeric::{Rational, from_decimal, shortest_decimal, to_f64};
 use num_traits::One;
 use serde::Serialize;
@@ -18,6 +19,8 @@ pub(super) struct Report {
     mode: &'static str,
     from: Vec<f64>,
     noise: String,
+    #[serde(skip)]
+    region: &'static str,
     seed: u64,
     /// The promised probability of success from there.
     bound: f64,
@@ -47,28 +50,50 @@ pub(super) struct Simulated {
 
 impl Report {
     pub(super) fn new(run: &Run, controller: &Controller, noise: ChosenNoise, simulated: Simulated) -> Self {
+        let bound = controller.bound_at(&simulated.from);
+        let checks = controller.group_steps() as u64;
+        let noise = (noise.name, noise.notes);
+        Self::of((&run.manifest.name, checks), controller.guarantee(), bound, noise, simulated)
+    }
+
+    /// Of a run whose actions are inputs: the noise is the model's.
+    pub(super) fn of_inputs(run: &InputRun, controller: &InputController, simulated: Simulated) -> Self {
+        let bound = controller.bound_at(&simulated.from);
+        let noise = ("the model's distributions".to_owned(), vec![]);
+        Self::of((run.problem.name(), 1), controller.guarantee(), bound, noise, simulated)
+    }
+
+    fn of(
+        (name, checks): (&str, u64),
+        guarantee: &Guarantee,
+        bound: f64,
+        (noise, notes): (String, Vec<String>),
+        simulated: Simulated,
+    ) -> Self {
         let Simulated { from, seed, confidence, tally, seconds } = simulated;
-        let guarantee = controller.guarantee();
         // Of the decimal that was written: 0.01 for 0.99.
         let alpha = from_decimal(confidence).map_or(0.01, |p| to_f64(&(Rational::one() - p)));
-        let bound = controller.bound_at(&from);
         let satisfied = tally.satisfaction(alpha);
         Self {
-            name: run.manifest.name.clone(),
+            name: name.to_owned(),
             mode: guarantee.mode(),
             from,
-            noise: noise.name,
+            region: match guarantee.event.aim {
+                Aim::Reach => "goal",
+                Aim::Stay => "safe",
+            },
+            noise,
             seed,
             bound,
             promise_confidence: guarantee.confidence(),
             satisfied,
             reached: tally.reaching(alpha),
             contradiction: satisfied.contradicts(bound),
-            inputs_checked: tally.steps * controller.group_steps() as u64,
+            inputs_checked: tally.steps * checks,
             counts: tally,
             group_steps: guarantee.event.group_steps,
             seconds,
-            notes: noise.notes,
+            notes,
         }
     }
 
@@ -97,7 +122,7 @@ impl Report {
             None => "in reference mode: not a guarantee".to_owned(),
         };
         line("promised", format!("at least {} {promise}", lower_bound_text(self.bound)));
-        line("satisfied", format!("{} in the goal region", frequency(&self.satisfied)));
+        line("satisfied", format!("{} in the {} region", frequency(&self.satisfied), self.region));
         line("reached", format!("{} in goal cells", frequency(&self.reached)));
         let counts = &self.counts;
         let ends = [

@@ -1,11 +1,10 @@
 //! Trajectories as CSV.
 
 use dynabs::controller::{Decision, Trajectory};
-use dynabs::problem::Problem;
 use imdp::numeric::shortest_decimal;
 use std::io::{self, Write};
 
-/// Writes one line per original step: `run`, `step`, the state `x…`, the input `u…` applied there, and `status`.
+/// Writes one line per original step of `n` states and `p` inputs: `run`, `step`, the state `x…`, the input `u…` applied there, and `status`.
 ///
 /// `status` is what the controller decided (`steer`, or how the run ended, with no input), and `between` where it
 /// was not asked.
@@ -13,26 +12,25 @@ use std::io::{self, Write};
 /// # Errors
 /// What writing gives.
 pub(super) fn write_trajectories(
-    problem: &Problem,
+    (n, p): (usize, usize),
     trajectories: impl Iterator<Item = Trajectory>,
     out: &mut impl Write,
 ) -> io::Result<()> {
     let named =
         |name: &str, count: usize| -> Vec<String> { (1..=count).map(|j| format!("{name}{j}")).collect() };
-    let p = problem.step_system().input_dimension();
-    let (states, inputs) = (named("x", problem.grid().dimension()), named("u", p));
+    let (states, inputs) = (named("x", n), named("u", p));
     writeln!(out, "run,step,{},{},status", states.join(","), inputs.join(","))?;
     for trajectory in trajectories {
         for step in &trajectory.steps {
             let state: Vec<_> = step.state.iter().map(|&x| shortest_decimal(x)).collect();
             let input = match &step.input {
                 Some(u) => u.iter().map(|&u| shortest_decimal(u)).collect::<Vec<_>>().join(","),
-                None => ",".repeat(p - 1),
+                None => ",".repeat(p.saturating_sub(1)),
             };
             let status = match (step.decision, &step.input) {
                 (None, _) => "between",
-                (Some(Decision::Steer { .. }), Some(_)) => "steer",
-                (Some(Decision::Steer { .. }), None) => "given_up",
+                (Some(Decision::Steer { .. } | Decision::Apply { .. }), Some(_)) => "steer",
+                (Some(Decision::Steer { .. } | Decision::Apply { .. }), None) => "given_up",
                 (Some(Decision::Reached), _) => "reached",
                 (Some(Decision::Unsafe), _) => "unsafe",
                 (Some(Decision::Outside), _) => "outside",

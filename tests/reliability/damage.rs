@@ -75,7 +75,7 @@ fn properties_are_written_as_they_can_be_read() {
     }
     assert_eq!(fs::read_to_string(data("13.props")).unwrap(), deep(23));
     let property: imdp::property::Property = deep(2).parse().unwrap();
-    assert_eq!(property.to_string(), "Pmaxmin=? [ F true != (true != true) ]");
+    assert_eq!(property.to_string(), "Pmaxmin=? [ F (true != (true != true)) ]");
 }
 
 /// F14: a horizon beyond what PRISM, and we, can read.

@@ -68,7 +68,7 @@ fn pipes_devices_and_made_up_files_are_refused() {
         for extension in ["tra", "drn", "umb", "dynabs"] {
             lines.push(format!("ln -sf {special} {special}.{extension}; $check solve {special}.{extension} -p 'Pmaxmin=? [ F \"reached\" ]'"));
         }
-        for name in ["manifest.json", "problem.json", "model.dynabs", "model.props", "noise.csv"] {
+        for name in ["manifest.json", "problem.json", "model.dynabs", "model.props"] {
             lines.push(format!("cp -r run r; ln -sf $PWD/{special} r/{name}; $check simulate r && $check solve r; code=$?; rm -r r; exit $code"));
         }
         for name in ["crosscheck.json", "values.txt", "policy.txt", "results.json"] {

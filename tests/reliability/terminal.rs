@@ -27,6 +27,8 @@ fn control_characters_are_spelled_out() {
         assert_eq!(ended.code, Some(2), "{line}: {}", ended.err);
         let raw = |c: char| c.is_control() && c != '\n' && c != '\t';
         assert!(!ended.out.contains(raw) && !ended.err.contains(raw), "{line}: {:?}", ended.err);
-        assert!(ended.err.contains("31mX"), "{line}: {:?}", ended.err);
+        // The parser of arguments takes such sequences out itself.
+        let shown = if line.starts_with("$check $'") { "X" } else { "31mX" };
+        assert!(ended.err.contains(shown), "{line}: {:?}", ended.err);
     }
 }

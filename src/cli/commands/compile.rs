@@ -1,12 +1,13 @@
 //! `dynabs-compile`: from a model file to PRISM files.
 
+use super::compile_inputs;
 use super::solve::{LimitArguments, Wanted, answer};
 use crate::results::{PropertyResult, exit_code, table};
 use crate::summary::{memory, summary};
 use crate::{Bars, CliError, EncodingName, FormatName, print, use_threads, warn};
 use clap::Parser;
 use dynabs::abstraction::{Abstraction, Footprint, compile};
-use dynabs::model_file::{Document, SetArgument, json_schema, starter_model};
+use dynabs::model_file::{Document, SetArgument, StatedProblem, json_schema, starter_model};
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, write_run};
 use imdp::files::{self, Outputs};
 use imdp::model::available_memory;
@@ -147,7 +148,21 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
     }
     let source = read_model(path)?;
     let (document, mut notes) = configure(path, &source, arguments)?;
-    let problem = document.problem()?;
+    let problem = match document.stated()? {
+        StatedProblem::Targets(problem) => *problem,
+        StatedProblem::Inputs(problem) => {
+            let output = arguments.output.as_deref().filter(|_| !arguments.dry_run);
+            let wanted = compile_inputs::Wanted {
+                output: output.map(|output| (output, write_options(arguments))),
+                set: &arguments.set,
+                solve: arguments.solve,
+                json: arguments.json,
+                quiet: arguments.quiet,
+            };
+            let sources = (&document, source.as_str());
+            return compile_inputs::compile_inputs(sources, &problem, &wanted, notes, start, &bars);
+        }
+    };
     let mut phases = vec![("model file", start.elapsed())];
 
     let mut abstraction =
@@ -172,15 +187,7 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
 
     if let Some(output) = arguments.output.as_deref().filter(|_| !arguments.dry_run) {
         let writing = Instant::now();
-        let options = WriteOptions {
-            formats: if arguments.no_tra {
-                vec![]
-            } else {
-                arguments.format.iter().map(|&name| name.into()).collect()
-            },
-            encoding: arguments.encoding.into(),
-            force: arguments.force,
-        };
+        let options = write_options(arguments);
         manifest = write_run(output, &document, &problem, &abstraction, manifest, options, &*bars)?;
         phases.push(("files", writing.elapsed()));
     }
@@ -198,6 +205,15 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
     }
     report(arguments, &manifest, &abstraction.footprint, &phases, &results)?;
     Ok(exit_code(&results))
+}
+
+fn write_options(arguments: &Arguments) -> WriteOptions {
+    let formats = arguments.format.iter().map(|&name| name.into());
+    WriteOptions {
+        formats: if arguments.no_tra { vec![] } else { formats.collect() },
+        encoding: arguments.encoding.into(),
+        force: arguments.force,
+    }
 }
 
 /// Replaces the model by what an optimal policy needs of it.

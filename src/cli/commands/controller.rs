@@ -1,10 +1,15 @@
 //! `dynabs-check controller`: the refined feedback law as a file.
 
 use crate::exports::replace;
+use crate::input_run_source::SolvedInputs;
 use crate::run_source::{Refined, refine};
 use crate::{Bars, CliError, print};
 use clap::Args;
-use dynabs::controller::export::{CSourceError, c_source, write_csv, write_json};
+use dynabs::controller::export::{
+    CSourceError, c_source, input_c_source, write_csv, write_input_csv, write_input_json, write_json,
+};
+use dynabs::run::InputRun;
+use imdp::solver::SolverOptions;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -33,6 +38,9 @@ pub fn run(arguments: &ControllerArguments) -> Result<ExitCode, CliError> {
     let path = &arguments.output;
     let form = Form::of(path)?;
     let bars = Arc::new(Bars::new(arguments.quiet));
+    if InputRun::is_in(&arguments.directory) {
+        return write_inputs(arguments, &form, &bars);
+    }
     let Refined { run, controller, .. } = refine(&arguments.directory, &bars)?;
     let problem = &run.problem;
     match form {
@@ -40,12 +48,7 @@ pub fn run(arguments: &ControllerArguments) -> Result<ExitCode, CliError> {
         Form::Csv => replace(path, |out| write_csv(&controller, problem.grid(), out))?,
         Form::C => {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let text = c_source(&controller, problem, &name).map_err(|error| match error {
-                CSourceError::HorizonTooLong { .. } => {
-                    CliError::Input(format!("{}: found {error}\n  Write .json instead.", path.display()))
-                }
-                CSourceError::Template { .. } => CliError::Failure(error.to_string()),
-            })?;
+            let text = c_source(&controller, problem, &name).map_err(|error| no_c_source(path, &error))?;
             replace(path, |out| out.write_all(text.as_bytes()))?;
         }
     }
@@ -54,6 +57,43 @@ pub fn run(arguments: &ControllerArguments) -> Result<ExitCode, CliError> {
         print(&format!("wrote {}\n  {promise}\n", path.display()))?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The controller of a run whose actions are inputs.
+fn write_inputs(
+    arguments: &ControllerArguments,
+    form: &Form,
+    bars: &Arc<Bars>,
+) -> Result<ExitCode, CliError> {
+    let path = &arguments.output;
+    bars.catch_interrupts();
+    let options = SolverOptions { policy: true, ..SolverOptions::default() };
+    let solved = SolvedInputs::open(&arguments.directory, &options, bars)?;
+    let (controller, problem) = (solved.controller(), &solved.run.problem);
+    match form {
+        Form::Json => replace(path, |out| write_input_json(&controller, problem.name(), out))?,
+        Form::Csv => replace(path, |out| write_input_csv(&controller, problem.grid(), out))?,
+        Form::C => {
+            let file = path.file_name().unwrap_or_default().to_string_lossy();
+            let text = input_c_source(&controller, problem.name(), &file);
+            let text = text.map_err(|error| no_c_source(path, &error))?;
+            replace(path, |out| out.write_all(text.as_bytes()))?;
+        }
+    }
+    if !arguments.quiet {
+        let promise = controller.promise().join("\n  ");
+        print(&format!("wrote {}\n  {promise}\n", path.display()))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn no_c_source(path: &Path, error: &CSourceError) -> CliError {
+    match error {
+        CSourceError::HorizonTooLong { .. } => {
+            CliError::Input(format!("{}: found {error}\n  Write .json instead.", path.display()))
+        }
+        CSourceError::Template { .. } => CliError::Failure(error.to_string()),
+    }
 }
 
 /// What is written.

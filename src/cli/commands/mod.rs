@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod compile;
+mod compile_inputs;
 pub mod controller;
 pub mod convert;
 pub mod crosscheck;

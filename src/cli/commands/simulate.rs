@@ -1,16 +1,18 @@
 //! `dynabs-check simulate`: the closed loop against its promise.
 
 use crate::exports::replace;
+use crate::input_run_source::SolvedInputs;
 use crate::run_source::{Refined, refine};
 use crate::simulation_noise::{NoiseArguments, noise};
 use crate::simulation_report::{Report, Simulated};
 use crate::trajectories::write_trajectories;
 use crate::{Bars, CliError, print};
 use clap::Args;
-use dynabs::controller::Simulation;
-use dynabs::partition::CellLookup;
-use dynabs::run::Run;
+use dynabs::controller::{InputSimulation, ParameterChoice, Simulation};
+use dynabs::partition::{CellLookup, Grid};
+use dynabs::run::InputRun;
 use imdp::progress::Progress;
+use imdp::solver::SolverOptions;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -45,6 +47,10 @@ pub struct SimulateArguments {
     #[arg(long, value_name = "N", default_value_t = 10_000)]
     most_steps: u64,
 
+    /// How parameters are picked at every step, where actions are inputs.
+    #[arg(long, value_name = "HOW", value_enum, default_value_t)]
+    parameters: Parameters,
+
     /// Write trajectories to this CSV file.
     #[arg(long, value_name = "FILE")]
     trajectories: Option<PathBuf>,
@@ -62,6 +68,28 @@ pub struct SimulateArguments {
     quiet: bool,
 }
 
+/// How parameters are picked at every step.
+#[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
+enum Parameters {
+    /// Uniformly from their intervals.
+    #[default]
+    Random,
+    /// Either end of each interval, by chance.
+    Corners,
+    /// The ends that lead to the least bound.
+    Adversarial,
+}
+
+impl From<Parameters> for ParameterChoice {
+    fn from(parameters: Parameters) -> Self {
+        match parameters {
+            Parameters::Random => Self::Random,
+            Parameters::Corners => Self::Corners,
+            Parameters::Adversarial => Self::Adversarial,
+        }
+    }
+}
+
 fn probability(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|p| (0.5..1.0).contains(p));
     number.ok_or_else(|| "expected a number from 0.5 up to, but not including, 1".to_owned())
@@ -74,8 +102,11 @@ fn probability(text: &str) -> Result<f64, String> {
 /// [`CliError`], which knows its exit code.
 pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
+    if InputRun::is_in(&arguments.directory) {
+        return simulate_inputs(arguments, &bars);
+    }
     let Refined { run, controller, .. } = refine(&arguments.directory, &bars)?;
-    let start = start(arguments, &run)?;
+    let start = start(arguments, run.problem.grid(), run.problem.initial_state())?;
     let noise = noise(&arguments.noise, &run)?;
     let simulation = Simulation::new(&run.problem, &controller, noise.noise.clone(), arguments.most_steps);
     let clock = Instant::now();
@@ -87,7 +118,8 @@ pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, CliError> {
     if let Some(path) = &arguments.trajectories {
         let kept = arguments.keep.min(arguments.runs);
         let trajectories = (0..kept).map(|run| simulation.trajectory(&start, arguments.seed, run));
-        replace(path, |out| write_trajectories(&run.problem, trajectories, out))?;
+        let sizes = (run.problem.grid().dimension(), run.problem.step_system().input_dimension());
+        replace(path, |out| write_trajectories(sizes, trajectories, out))?;
     }
     let SimulateArguments { seed, confidence, .. } = *arguments;
     let report =
@@ -101,11 +133,44 @@ pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, CliError> {
     report.outcome()
 }
 
+/// The true system of a run whose actions are inputs.
+fn simulate_inputs(arguments: &SimulateArguments, bars: &Arc<Bars>) -> Result<ExitCode, CliError> {
+    bars.catch_interrupts();
+    let options = SolverOptions { policy: true, ..SolverOptions::default() };
+    let solved = SolvedInputs::open(&arguments.directory, &options, bars)?;
+    let (controller, problem) = (solved.controller(), &solved.run.problem);
+    let start = start(arguments, problem.grid(), problem.initial_state())?;
+    let simulation =
+        InputSimulation::new(problem, &controller, arguments.parameters.into(), arguments.most_steps);
+    let clock = Instant::now();
+    let tally = simulation.tally(&start, arguments.seed, arguments.runs, &**bars);
+    let seconds = clock.elapsed().as_secs_f64();
+    if bars.is_interrupted() {
+        return Err(CliError::Interrupted);
+    }
+    if let Some(path) = &arguments.trajectories {
+        let kept = arguments.keep.min(arguments.runs);
+        let trajectories = (0..kept).map(|run| simulation.trajectory(&start, arguments.seed, run));
+        let sizes = (controller.state_dimension(), controller.num_inputs());
+        replace(path, |out| write_trajectories(sizes, trajectories, out))?;
+    }
+    let SimulateArguments { seed, confidence, .. } = *arguments;
+    let simulated = Simulated { from: start, seed, confidence, tally, seconds };
+    let report = Report::of_inputs(&solved.run, &controller, simulated);
+    if arguments.json {
+        print(&report.json()?)?;
+    } else if !arguments.quiet {
+        print(&report.text())?;
+    }
+    report.warn();
+    report.outcome()
+}
+
 /// The state that runs start in.
-fn start(arguments: &SimulateArguments, run: &Run) -> Result<Vec<f64>, CliError> {
-    let n = run.problem.grid().dimension();
+fn start(arguments: &SimulateArguments, grid: &Grid, initial: Option<&[f64]>) -> Result<Vec<f64>, CliError> {
+    let n = grid.dimension();
     let Some(text) = &arguments.from else {
-        return run.problem.initial_state().map(<[f64]>::to_vec).ok_or_else(|| {
+        return initial.map(<[f64]>::to_vec).ok_or_else(|| {
             let example = vec!["0"; n].join(",");
             CliError::Input(format!(
                 "--from: found nothing, and the model has no initial state; expected {n} numbers such as --from={example}"
@@ -119,7 +184,7 @@ fn start(arguments: &SimulateArguments, run: &Run) -> Result<Vec<f64>, CliError>
             "--from: found \"{text}\"; expected {n} numbers separated by commas, one per dimension of the state"
         )));
     };
-    if CellLookup::new(run.problem.grid()).locate(&x).is_none() {
+    if CellLookup::new(grid).locate(&x).is_none() {
         return Err(CliError::Input(format!(
             "--from: found \"{text}\", outside the partition; expected a state in it, for which something is promised"
         )));

@@ -1,10 +1,13 @@
 //! `dynabs-check solve`: properties of a model.
 
-use crate::exports::{write_policy, write_values};
+use crate::exports::{write_cell_policy, write_cell_values, write_policy, write_values};
+use crate::input_run_source::SolvedInputs;
+use crate::input_summary::InputResult;
 use crate::model_source::{LoadedModel, load};
 use crate::results::{PropertyResult, exit_code, table};
 use crate::{Bars, CliError, print, warn};
 use clap::Args;
+use dynabs::run::InputRun;
 use imdp::certificate;
 use imdp::files::{self, Outputs};
 use imdp::model::IntervalMdp;
@@ -88,6 +91,9 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
 pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
     let start = Instant::now();
+    if InputRun::is_in(&arguments.path) && !arguments.explicit && arguments.properties.is_empty() {
+        return solve_inputs(arguments, &bars);
+    }
     let loaded = load(&arguments.path, arguments.explicit, &bars)?;
     let reading = start.elapsed();
     let properties = properties(&arguments.properties, &loaded.properties)?;
@@ -119,6 +125,45 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
         warn(&format!("times: reading {reading:.1?}, solving {:.1?}\n", start.elapsed() - reading));
     }
     Ok(exit_code(&results))
+}
+
+/// The task of a run whose actions are inputs, on the lattice itself.
+fn solve_inputs(arguments: &SolveArguments, bars: &Arc<Bars>) -> Result<ExitCode, CliError> {
+    if arguments.certificate.is_some() {
+        return Err(CliError::Input(format!(
+            "--certificate: found the directory {}; expected a model file\n  Compile with --format dynabs and give model.dynabs of that directory.",
+            arguments.path.display()
+        )));
+    }
+    bars.catch_interrupts();
+    let start = Instant::now();
+    let options = SolverOptions {
+        epsilon: arguments.limits.epsilon,
+        max_iterations: arguments.limits.max_iterations.unwrap_or(u64::MAX),
+        time_limit: arguments.limits.time_limit.map(Duration::from_secs_f64),
+        ..SolverOptions::default()
+    };
+    let SolvedInputs { run, solution } = SolvedInputs::open(&arguments.path, &options, bars)?;
+    let result = InputResult::new(&run.problem, &run.abstraction, &solution, start.elapsed());
+    let mut files = Outputs::default();
+    if let Some(path) = &arguments.values {
+        let written = files.write(path, |out| write_cell_values(&solution.values.lower, out));
+        written.map_err(|error| CliError::writing(path, &error))?;
+    }
+    if let Some(path) = &arguments.policy {
+        let cells = run.problem.grid().num_cells();
+        let written = files.write(path, |out| write_cell_policy(&solution.policy, cells, out));
+        written.map_err(|error| CliError::writing(path, &error))?;
+    }
+    files.commit().map_err(|error| CliError::Failure(error.to_string()))?;
+    if arguments.json {
+        print(&format!("{:#}\n", json!({"version": env!("CARGO_PKG_VERSION"), "results": [result]})))?;
+    } else if !arguments.quiet {
+        let initial =
+            if run.problem.initial_state().is_some() { "at the initial state" } else { "over all cells" };
+        print(&format!("{}\n{}", run.manifest.property, result.text(initial)))?;
+    }
+    Ok(result.exit_code())
 }
 
 /// Writes what was asked for about one property; all files appear together.

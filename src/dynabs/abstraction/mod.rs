@@ -10,6 +10,7 @@ mod count_table;
 mod enabled;
 mod error;
 mod footprint;
+pub mod inputs;
 mod landing;
 mod landings;
 mod outcomes;

@@ -7,14 +7,16 @@
 //! the loop with the original system, [`export`] writes the law as files.
 
 pub mod export;
+mod input_controller;
 mod law;
 mod refined;
 mod schedule;
 mod simulation;
 
+pub use input_controller::InputController;
 pub use refined::{Controller, ControllerError, Decision};
 pub use schedule::Entry;
 pub use simulation::{
-    End, Frequency, InputCheck, Noise, Plant, RunOutcome, Simulation, Tally, Trajectory, TrajectoryStep,
-    Violation,
+    End, Frequency, InputCheck, InputSimulation, Noise, ParameterChoice, Plant, RunOutcome, Simulation,
+    Tally, Trajectory, TrajectoryStep, Violation,
 };

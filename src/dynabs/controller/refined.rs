@@ -41,6 +41,11 @@ pub enum Decision {
         /// The target.
         target: u32,
     },
+    /// It applies an input, with feedback about the center of the cell.
+    Apply {
+        /// The input.
+        input: u32,
+    },
     /// The goal is reached: the task is done.
     Reached,
     /// The cell meets the unsafe region: the task has failed.

@@ -9,7 +9,7 @@ use imdp::solver::Policy;
 pub struct Entry {
     /// The least number of grouped steps left for which it holds; 1 in stationary schedules.
     pub steps_left: u64,
-    /// The target, as numbered by [`Targets`](crate::abstraction::Targets).
+    /// The target, as numbered by [`Targets`](crate::abstraction::Targets); or the input, where actions are inputs.
     pub target: u32,
 }
 
@@ -32,6 +32,17 @@ impl Schedule {
                     schedule.entries.push(Entry { steps_left, target });
                 }
             }
+            schedule.starts.push(schedule.entries.len());
+        }
+        schedule
+    }
+
+    /// From `(steps left, action)` of every cell, ascending.
+    pub(super) fn of_cells<'a>(cells: impl Iterator<Item = &'a [(u64, u32)]>) -> Self {
+        let mut schedule = Self { starts: vec![0], entries: vec![] };
+        for changes in cells {
+            let entries = changes.iter().map(|&(steps_left, target)| Entry { steps_left, target });
+            schedule.entries.extend(entries);
             schedule.starts.push(schedule.entries.len());
         }
         schedule

@@ -1,12 +1,16 @@
 //! What is promised to happen.
 
-use crate::problem::Problem;
+use crate::landing::Aim;
+use crate::problem::{InputProblem, Problem};
 use serde::{Deserialize, Serialize};
 
-/// Reaching the goal in time and avoiding the unsafe region until then.
+/// Reaching the goal in time and avoiding the unsafe region until then, or staying in the safe region.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Event {
-    /// The number of original steps within which the goal is reached; none for unbounded tasks.
+    /// Whether something is to be reached or to be kept.
+    #[serde(default)]
+    pub aim: Aim,
+    /// The number of original steps that the task is about; none for unbounded tasks.
     pub horizon: Option<u64>,
     /// How many original steps are one step of the model.
     pub group_steps: u64,
@@ -30,9 +34,16 @@ impl Event {
         let group_steps = problem.group_steps() as u64;
         let everywhere = group_steps == 1 || problem.unsafe_regions().is_empty();
         Self {
+            aim: problem.objective().aim(),
             horizon: problem.horizon().map(|steps| steps * group_steps),
             group_steps,
             safety: if everywhere { Safety::EveryStep } else { Safety::GroupedInstants },
         }
+    }
+
+    /// The task of a problem whose actions are inputs.
+    pub fn of_inputs(problem: &InputProblem) -> Self {
+        let aim = problem.objective().aim();
+        Self { aim, horizon: problem.horizon(), group_steps: 1, safety: Safety::EveryStep }
     }
 }

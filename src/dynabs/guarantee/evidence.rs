@@ -9,6 +9,11 @@ use serde::{Deserialize, Serialize};
 pub enum Evidence {
     /// Samples of the noise, whose distribution is unknown.
     Samples(SampleEvidence),
+    /// Known distributions.
+    Known {
+        /// The most mass of a component of the noise that is not listed and may do anything.
+        unlisted: f64,
+    },
     /// The published tool's formulas, which prove nothing.
     Published {
         /// The failure probability of one interval by itself.

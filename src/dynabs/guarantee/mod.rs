@@ -19,6 +19,7 @@ pub use event::{Event, Safety};
 pub use evidence::{Evidence, SampleEvidence};
 pub use gap::Gap;
 
+use crate::landing::Aim;
 use imdp::numeric::{Rational, from_decimal, to_f64};
 use num_traits::One;
 use serde::ser::SerializeStruct;
@@ -36,25 +37,35 @@ pub struct Guarantee {
 }
 
 impl Guarantee {
-    /// The probability with which everything promised holds, over the samples: `1 − β`; none if nothing is promised.
+    /// A guarantee of nothing.
+    pub fn none() -> Self {
+        let event = Event { aim: Aim::Reach, horizon: None, group_steps: 1, safety: Safety::EveryStep };
+        Self { event, evidence: Evidence::Published { beta_per_interval: 1.0 } }
+    }
+
+    /// The probability with which everything promised holds, over the samples: `1 − β`, or 1 if the noise is known; none if nothing is promised.
     pub fn confidence(&self) -> Option<f64> {
+        if let Evidence::Known { .. } = self.evidence {
+            return Some(1.0);
+        }
         // Of the decimal `β`: 0.99 for 0.01.
         let beta = from_decimal(self.samples()?.beta)?;
         Some(to_f64(&(Rational::one() - beta)))
     }
 
-    /// The samples that it rests on; none if nothing is promised.
+    /// The samples that it rests on, if it does.
     pub fn samples(&self) -> Option<&SampleEvidence> {
         match &self.evidence {
             Evidence::Samples(samples) => Some(samples),
-            Evidence::Published { .. } => None,
+            Evidence::Known { .. } | Evidence::Published { .. } => None,
         }
     }
 
-    /// The name of the mode that gives such a guarantee: `pac`, or `reference`, which promises nothing.
+    /// The name of the mode that gives such a guarantee: `pac`, `known`, or `reference`, which promises nothing.
     pub fn mode(&self) -> &'static str {
         match self.evidence {
             Evidence::Samples(_) => "pac",
+            Evidence::Known { .. } => "known",
             Evidence::Published { .. } => "reference",
         }
     }

@@ -1,6 +1,7 @@
 //! A guarantee in words: sentences and lists of plain ASCII.
 
 use super::{Bound, Evidence, Guarantee, Safety, lower_bound_text};
+use crate::landing::Aim;
 use imdp::numeric::shortest_decimal;
 
 /// What the samples must not have a say in.
@@ -24,6 +25,13 @@ const ASSUMES: &[&str] = &[
     "a seed that samples are drawn with was not chosen by its result",
 ];
 
+/// What the promise presupposes of noise that is known.
+const ASSUMES_KNOWN: &[&str] = &[
+    "the noise has the stated distribution at every step, whatever happened before",
+    "its components are independent of each other",
+    "parameters stay in their intervals",
+];
+
 impl Guarantee {
     /// The claim for a bound, as sentences.
     pub fn sentences(&self, bound: &Bound) -> Vec<String> {
@@ -35,11 +43,17 @@ impl Guarantee {
             None => "From any cell that is not unsafe".to_owned(),
         };
         let within = self.event.horizon.map_or(String::new(), |steps| format!(" within {steps} steps"));
+        let what = match (self.event.aim, self.event.horizon) {
+            (Aim::Reach, _) => format!(
+                "the goal is reached{within}, avoiding the unsafe region and the outside of the partition,"
+            ),
+            (Aim::Stay, Some(steps)) => format!("the state stays in the safe region for {steps} steps"),
+            (Aim::Stay, None) => "the state stays in the safe region for ever".to_owned(),
+        };
         let bound = lower_bound_text(bound.bound);
         let mut sentences = vec![match &self.evidence {
             Evidence::Samples(samples) => format!(
-                "{start} the goal is reached{within}, avoiding the unsafe region and the outside of the \
-                 partition, with probability at least {bound}. This holds with confidence {}{} over the {} noise \
+                "{start} {what} with probability at least {bound}. This holds with confidence {}{} over the {} noise \
                  samples, for noise that is independent of them and distributed like them.",
                 self.confidence().map(shortest_decimal).unwrap_or_default(),
                 match samples.sweep {
@@ -47,6 +61,10 @@ impl Guarantee {
                     settings => format!(", for all {settings} settings of the sweep together,"),
                 },
                 samples.number
+            ),
+            Evidence::Known { .. } => format!(
+                "{start} {what} with probability at least {bound}. This holds for noise with the stated \
+                 distribution, independent from step to step."
             ),
             Evidence::Published { .. } => format!(
                 "{start} the value is {bound}{within}. It was computed in reference mode, to compare with the \
@@ -93,6 +111,9 @@ impl Guarantee {
                  Pmaxmax) of formulas that are true from \"failed\" on; in both cases only if \"reached\" decides the formula \
                  by its meaning: a run ends there, and what the model does afterwards, or its variables there, mean nothing"
             }
+            Evidence::Known { .. } => {
+                "lower bounds (Pmaxmin) and upper bounds (Pmaxmax) of the task: what no controller with these inputs exceeds"
+            }
             Evidence::Published { .. } => {
                 "nothing: these intervals repeat the published tool's and are no guarantee"
             }
@@ -103,7 +124,7 @@ impl Guarantee {
     pub fn fixed_beforehand(&self) -> &'static [&'static str] {
         match self.evidence {
             Evidence::Samples(_) => FIXED_BEFOREHAND,
-            Evidence::Published { .. } => &[],
+            Evidence::Known { .. } | Evidence::Published { .. } => &[],
         }
     }
 
@@ -111,6 +132,7 @@ impl Guarantee {
     pub fn assumes(&self) -> &'static [&'static str] {
         match self.evidence {
             Evidence::Samples(_) => ASSUMES,
+            Evidence::Known { .. } => ASSUMES_KNOWN,
             Evidence::Published { .. } => &[],
         }
     }

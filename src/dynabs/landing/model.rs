@@ -101,8 +101,7 @@ impl Question<'_> {
             labels,
             variables: StateVariables::default(),
         })?;
-        let noisy = self.landing.axes().iter().filter(|axis| axis.noise.is_some()).count() as u64;
-        Ok(LandingModel { model, of_cell, micro_steps: 2 + 2 * noisy })
+        Ok(LandingModel { model, of_cell, micro_steps: self.landing.micro_steps() })
     }
 
     /// The states of the sub-cells of a box.
@@ -161,6 +160,11 @@ impl Ranges {
 }
 
 impl Landing {
+    /// How many steps of the model are one of the system: to a range, to a sub-cell, and two for each noise.
+    pub fn micro_steps(&self) -> u64 {
+        2 + 2 * self.axes().iter().filter(|axis| axis.noise.is_some()).count() as u64
+    }
+
     /// The axes in the order of their stages.
     pub(super) fn order(&self) -> impl Iterator<Item = usize> + '_ {
         self.stages().iter().map(|(j, _)| *j)

@@ -4,11 +4,14 @@ use super::images::Images;
 use super::side::{Lower, Upper};
 use super::step::{Best, Landing};
 use imdp::solver::{Control, NO_CHOICE, Policy, SolverOptions, Status, ValueBounds};
+use serde::{Deserialize, Serialize};
 
 /// What a run of the system is wanted to do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Aim {
     /// To come to a cell of the goal.
+    #[default]
     Reach,
     /// To stay in the open cells.
     Stay,

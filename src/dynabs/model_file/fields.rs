@@ -1,6 +1,6 @@
 //! The fields of a model file.
 
-use crate::problem::{GroupSteps, Horizon};
+use crate::problem::{DistributionParts, GroupSteps, Horizon};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
@@ -26,8 +26,13 @@ pub(super) struct ModelFile {
     pub(super) dynamics: DynamicsSpec,
     /// Samples of the noise, or a distribution to draw them from.
     pub(super) noise: NoiseSpec,
-    /// The inputs allowed in one step: a box or a polytope.
-    pub(super) input: SetSpec,
+    /// What the controller chooses from in every cell: "targets" to steer to (the default for matrices and sampled
+    /// noise), or "inputs" (the default for everything else).
+    #[serde(default)]
+    pub(super) actions: Option<ActionsSpec>,
+    /// The inputs allowed in one step: a box or a polytope; for actions "inputs" also which of them to choose from.
+    #[serde(default)]
+    pub(super) input: Option<SetSpec>,
     /// A lower layer of linear feedback that stabilises the system.
     #[serde(default)]
     pub(super) stabilizer: Option<StabilizerSpec>,
@@ -54,9 +59,9 @@ pub(super) struct DynamicsSpec {
     /// `A`, n×n, row by row; not singular.
     #[serde(rename = "A")]
     pub(super) a: Vec<Vec<f64>>,
-    /// `B`, n×p, row by row.
-    #[serde(rename = "B")]
-    pub(super) b: Vec<Vec<f64>>,
+    /// `B`, n×p, row by row; absent if there is nothing to choose.
+    #[serde(rename = "B", default)]
+    pub(super) b: Option<Vec<Vec<f64>>>,
     /// `q`, n numbers; 0 if absent.
     #[serde(default)]
     pub(super) q: Option<Vec<f64>>,
@@ -66,7 +71,17 @@ pub(super) struct DynamicsSpec {
     pub(super) group_steps: GroupSteps,
 }
 
-/// Where noise samples come from: `samples`, or `gaussian` with `count` and `seed`.
+/// What the controller chooses from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum ActionsSpec {
+    /// Points to steer to.
+    Targets,
+    /// Inputs.
+    Inputs,
+}
+
+/// The noise: `samples`, or `gaussian` with `count` and `seed` for samples that are drawn, or known `components`.
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct NoiseSpec {
@@ -76,6 +91,9 @@ pub(super) struct NoiseSpec {
     /// A normal distribution of the noise of one step.
     #[serde(default)]
     pub(super) gaussian: Option<GaussianSpec>,
+    /// Known distributions of the components of the noise of one step, which are independent; null for none.
+    #[serde(default)]
+    pub(super) components: Option<Vec<Option<DistributionParts>>>,
     /// How many samples of the grouped noise to draw (each from d draws of one step).
     #[serde(default)]
     pub(super) count: Option<u64>,
@@ -132,6 +150,13 @@ pub(super) struct SetSpec {
     /// The offsets of a polytope, one per half-space.
     #[serde(rename = "g", default)]
     pub(super) offsets: Option<Vec<f64>>,
+    /// For actions "inputs": how many values of each input of a box there are to choose from, evenly spaced with both
+    /// ends; 5 of a single input and 3 of each of several if absent.
+    #[serde(default)]
+    pub(super) points: Option<Vec<u32>>,
+    /// For actions "inputs": the inputs to choose from.
+    #[serde(default)]
+    pub(super) list: Option<Vec<Vec<f64>>>,
 }
 
 /// A lower layer `u = −K (x − x̄) + u′` on the grouped system (d·p inputs).
@@ -177,6 +202,12 @@ pub(super) struct GridSpec {
     pub(super) upper: Vec<f64>,
     /// The number of cells in each dimension.
     pub(super) cells: Vec<u32>,
+    /// For actions "inputs": in which dimensions the upper face is the lower one again, as with angles.
+    #[serde(default)]
+    pub(super) periodic: Option<Vec<bool>>,
+    /// For actions "inputs": how many sub-cells a cell has in each dimension for images to land on; chosen if absent.
+    #[serde(default)]
+    pub(super) resolution: Option<Vec<u32>>,
 }
 
 /// The points that actions steer to.
@@ -191,22 +222,41 @@ pub(super) enum TargetsSpec {
     Points(Vec<Vec<f64>>),
 }
 
-/// A reach-avoid task.
+/// A task: to reach a goal, or to stay somewhere.
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct TaskSpec {
-    /// The goal: a union of boxes; a cell counts if the union contains it.
-    pub(super) goal: Vec<RegionSpec>,
+    /// "reach" (the default) or "stay".
+    #[serde(rename = "type", default)]
+    pub(super) kind: TaskKind,
+    /// reach: the goal, a union of boxes; a cell counts if the union contains it.
+    #[serde(default)]
+    pub(super) goal: Option<Vec<RegionSpec>>,
+    /// stay: where to be at every step, a union of boxes; a cell counts if the union contains it. The whole partition
+    /// if absent.
+    #[serde(default)]
+    pub(super) safe: Option<Vec<RegionSpec>>,
     /// What must be avoided: a union of boxes; a cell counts if it meets one. Boxes are half-open,
     /// [lower, upper), like cells.
     #[serde(rename = "unsafe", default)]
     pub(super) unsafe_: Vec<RegionSpec>,
-    /// The number of original steps within which the goal must be reached, or "infinite".
+    /// The number of original steps that the task is about, or "infinite".
     pub(super) horizon: Horizon,
     /// The probability that is wanted, if any.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub(super) threshold: Option<f64>,
+}
+
+/// What is wanted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum TaskKind {
+    /// To reach a goal.
+    #[default]
+    Reach,
+    /// To stay in a region.
+    Stay,
 }
 
 /// A box with possibly unbounded sides.

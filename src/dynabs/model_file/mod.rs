@@ -2,8 +2,10 @@
 
 mod document;
 mod fields;
+mod input_parts;
 mod parts;
 mod schema;
 
 pub use document::{Document, SetArgument};
+pub use parts::StatedProblem;
 pub use schema::{json_schema, starter_model};

@@ -2,36 +2,84 @@
 
 use super::Document;
 use super::fields::{
-    DynamicsSpec, GaussianSpec, GridSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec, RegionSpec,
-    SampleKindSpec, SamplesSpec, SetSpec, StabilizerSpec, TargetsSpec, TaskSpec,
+    ActionsSpec, DynamicsSpec, GaussianSpec, GridSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec,
+    RegionSpec, SampleKindSpec, SamplesSpec, SetSpec, StabilizerSpec, TargetsSpec, TaskKind, TaskSpec,
 };
+use super::input_parts::input_parts;
 use crate::Diagnostic;
 use crate::problem::{
-    DrawnNoise, Gain, GaussianNoise, InputSet, LinearDynamics, LowerLayer, LqrWeights, NoiseSource,
-    Partition, Probabilities, Problem, ProblemBuilder, RegionBox, SampleKind, SamplesFile, TargetChoice,
-    Task,
+    DrawnNoise, Gain, GaussianNoise, InputProblem, InputSet, LinearDynamics, LowerLayer, LqrWeights,
+    NoiseSource, Partition, Probabilities, Problem, ProblemBuilder, RegionBox, SampleKind, SamplesFile,
+    TargetChoice, Task,
 };
 use std::path::Path;
 
+/// What a model file states: a problem of the kind that its actions need.
+#[derive(Clone, Debug)]
+pub enum StatedProblem {
+    /// Actions steer to targets.
+    Targets(Box<Problem>),
+    /// Actions are inputs.
+    Inputs(Box<InputProblem>),
+}
+
 impl Document {
-    /// The problem that the model file states: field names, types and values are checked, samples read.
+    /// The problem that the model file states, whatever its actions.
     ///
     /// # Errors
     /// A [`Diagnostic`] for the first mistake found.
-    pub fn problem(&self) -> Result<Problem, Diagnostic> {
-        let builder = self.model().and_then(|file| builder(file, &self.directory));
-        builder.and_then(ProblemBuilder::build).map_err(|error| error.in_file(&self.name))
+    pub fn stated(&self) -> Result<StatedProblem, Diagnostic> {
+        let stated = self.model().and_then(|file| match actions(&file) {
+            ActionsSpec::Inputs => {
+                InputProblem::new(input_parts(file)?).map(|problem| StatedProblem::Inputs(Box::new(problem)))
+            }
+            ActionsSpec::Targets => {
+                let problem = builder(file, &self.directory)?.build();
+                problem.map(|problem| StatedProblem::Targets(Box::new(problem)))
+            }
+        });
+        stated.map_err(|error| error.in_file(&self.name))
     }
+
+    /// The problem that the model file states: field names, types and values are checked, samples read.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] for the first mistake found, or if actions are inputs.
+    pub fn problem(&self) -> Result<Problem, Diagnostic> {
+        match self.stated()? {
+            StatedProblem::Targets(problem) => Ok(*problem),
+            StatedProblem::Inputs(_) => {
+                Err(Diagnostic::at("/actions", "actions that are inputs", "targets to steer to")
+                    .in_file(&self.name))
+            }
+        }
+    }
+}
+
+/// The kind of actions: as stated, or what the other fields ask for.
+fn actions(file: &ModelFile) -> ActionsSpec {
+    let default = if file.noise.components.is_some() { ActionsSpec::Inputs } else { ActionsSpec::Targets };
+    file.actions.unwrap_or(default)
 }
 
 fn builder(file: ModelFile, directory: &Path) -> Result<ProblemBuilder, Diagnostic> {
     let DynamicsSpec { a, b, q, group_steps } = file.dynamics;
-    let mut builder = Problem::builder(LinearDynamics { a, b, q }, input_set("/input", file.input)?)
+    let b = b.ok_or_else(|| missing("B").remedy(INPUTS))?;
+    let input = file.input.ok_or_else(|| missing("input").remedy(INPUTS))?;
+    if input.points.is_some() || input.list.is_some() {
+        return Err(Diagnostic::at("/input", "a choice of inputs", "only a set of inputs").remedy(INPUTS));
+    }
+    if file.partition.periodic.is_some() || file.partition.resolution.is_some() {
+        return Err(
+            Diagnostic::at("/partition", "periodic or resolution", "lower, upper and cells").remedy(INPUTS)
+        );
+    }
+    let mut builder = Problem::builder(LinearDynamics { a, b, q }, input_set("/input", input)?)
         .name(file.name)
         .group_steps(group_steps)
         .partition(partition(file.partition))
         .targets(targets(file.targets))
-        .task(task(file.task))
+        .task(task(file.task)?)
         .probabilities(probabilities(&file.probabilities)?)
         .noise(noise(file.noise, directory)?);
     if let Some(state) = file.initial_state {
@@ -43,12 +91,20 @@ fn builder(file: ModelFile, directory: &Path) -> Result<ProblemBuilder, Diagnost
     Ok(builder)
 }
 
-fn input_set(place: &str, spec: SetSpec) -> Result<InputSet, Diagnostic> {
+/// The way out if steering to targets cannot do something.
+const INPUTS: &str =
+    "With \"actions\": \"inputs\" the controller chooses from inputs, for any dynamics and known noise.";
+
+fn missing(name: &str) -> Diagnostic {
+    Diagnostic::at("", format!("no field `{name}`"), format!("the field `{name}`"))
+}
+
+pub(super) fn input_set(place: &str, spec: SetSpec) -> Result<InputSet, Diagnostic> {
     match spec {
-        SetSpec { lower: Some(lower), upper: Some(upper), normals: None, offsets: None } => {
+        SetSpec { lower: Some(lower), upper: Some(upper), normals: None, offsets: None, .. } => {
             Ok(InputSet::Box { lower, upper })
         }
-        SetSpec { lower: None, upper: None, normals: Some(normals), offsets: Some(offsets) } => {
+        SetSpec { lower: None, upper: None, normals: Some(normals), offsets: Some(offsets), .. } => {
             Ok(InputSet::Polytope { normals, offsets })
         }
         _ => {
@@ -83,7 +139,7 @@ fn lower_layer(spec: StabilizerSpec) -> Result<LowerLayer, Diagnostic> {
     Ok(LowerLayer { gain, about: spec.about, abstract_input })
 }
 
-fn partition(spec: GridSpec) -> Partition {
+pub(super) fn partition(spec: GridSpec) -> Partition {
     Partition { lower: spec.lower, upper: spec.upper, cells: spec.cells }
 }
 
@@ -95,12 +151,21 @@ fn targets(spec: TargetsSpec) -> TargetChoice {
     }
 }
 
-fn task(spec: TaskSpec) -> Task {
-    Task {
-        horizon: spec.horizon,
-        threshold: spec.threshold,
-        ..Task::reach(boxes(spec.goal)).avoiding(boxes(spec.unsafe_))
-    }
+pub(super) fn task(spec: TaskSpec) -> Result<Task, Diagnostic> {
+    let foreign = |field: &str, kind: &str| {
+        let expected = format!("only fields of a task of type \"{kind}\"");
+        Err(Diagnostic::at(format!("/task/{field}"), "a field of the other type", expected))
+    };
+    let wanted = match spec {
+        TaskSpec { kind: TaskKind::Reach, safe: Some(_), .. } => return foreign("safe", "reach"),
+        TaskSpec { kind: TaskKind::Stay, goal: Some(_), .. } => return foreign("goal", "stay"),
+        TaskSpec { kind: TaskKind::Reach, goal: None, .. } => {
+            return Err(Diagnostic::at("/task", "no field `goal`", "the field `goal`"));
+        }
+        TaskSpec { kind: TaskKind::Reach, goal: Some(goal), .. } => Task::reach(boxes(goal)),
+        TaskSpec { kind: TaskKind::Stay, safe, .. } => Task::stay(boxes(safe.unwrap_or_default())),
+    };
+    Ok(Task { horizon: spec.horizon, threshold: spec.threshold, ..wanted.avoiding(boxes(spec.unsafe_)) })
 }
 
 fn boxes(specs: Vec<RegionSpec>) -> Vec<RegionBox> {
@@ -116,14 +181,26 @@ fn boxes(specs: Vec<RegionSpec>) -> Vec<RegionBox> {
 
 fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {
     match spec {
-        NoiseSpec { samples: Some(SamplesSpec { file, of }), gaussian: None, count: None, seed: None } => {
+        NoiseSpec {
+            samples: Some(SamplesSpec { file, of }),
+            gaussian: None,
+            components: None,
+            count: None,
+            seed: None,
+        } => {
             let of = match of {
                 SampleKindSpec::Grouped => SampleKind::Grouped,
                 SampleKindSpec::Step => SampleKind::Step,
             };
             Ok(SamplesFile { path: directory.join(&file), name: file, of }.into())
         }
-        NoiseSpec { samples: None, gaussian: Some(GaussianSpec { mean, covariance }), count, seed } => {
+        NoiseSpec {
+            samples: None,
+            gaussian: Some(GaussianSpec { mean, covariance }),
+            components: None,
+            count,
+            seed,
+        } => {
             let count = count
                 .ok_or_else(|| Diagnostic::at("/noise/count", "nothing", "the number of samples to draw"))?;
             let distribution = GaussianNoise { mean, covariance };
@@ -133,6 +210,7 @@ fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {
             let given = given(&[
                 ("samples", spec.samples.is_some()),
                 ("gaussian", spec.gaussian.is_some()),
+                ("components", spec.components.is_some()),
                 ("count", spec.count.is_some()),
                 ("seed", spec.seed.is_some()),
             ]);

@@ -1,7 +1,8 @@
-//! Samples of the noise: read from CSV, or drawn from a Gaussian in a reproducible stream.
+//! Noise: samples, read from CSV or drawn from a Gaussian in a reproducible stream, and known distributions.
 
 mod csv;
 mod gaussian;
+pub mod known;
 mod samples;
 
 pub use csv::{CsvError, parse_csv};

@@ -45,6 +45,19 @@ impl CellLabels {
         Self { kinds: kinds.collect() }
     }
 
+    /// Labels the cells of a task that is to stay somewhere: `Unsafe` unless contained in the union of `safe`, which
+    /// is everything if empty, and clear of `unsafe_`; `Ordinary` elsewhere.
+    pub fn staying(grid: &Grid, safe: &[Region], unsafe_: &[Region]) -> Self {
+        let contained = Self::new(grid, safe, &[]);
+        let mut labels = Self::new(grid, &[], unsafe_);
+        for (kind, contained) in labels.kinds.iter_mut().zip(contained.kinds) {
+            if !safe.is_empty() && contained != CellKind::Goal {
+                *kind = CellKind::Unsafe;
+            }
+        }
+        labels
+    }
+
     /// The kind of one cell.
     pub fn kind(&self, cell: CellId) -> CellKind {
         self.kinds[cell.index()]

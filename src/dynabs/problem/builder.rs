@@ -1,6 +1,7 @@
 //! From parts to a problem: the checks that need several parts at once.
 
-use super::problem::{InitialState, Problem};
+pub(super) use super::problem::InitialState;
+use super::problem::Problem;
 use super::values::vector;
 use super::{
     Dynamics, GroupSteps, InputSet, LowerLayer, NoiseSource, Partition, Probabilities, TargetChoice, Task,
@@ -147,11 +148,11 @@ impl ProblemBuilder {
     }
 }
 
-fn given<T>(part: Option<T>, name: &str) -> Result<T, Diagnostic> {
+pub(super) fn given<T>(part: Option<T>, name: &str) -> Result<T, Diagnostic> {
     part.ok_or_else(|| Diagnostic::at("", format!("no field `{name}`"), format!("the field `{name}`")))
 }
 
-fn initial(state: Vec<f64>, grid: &Grid) -> Result<InitialState, Diagnostic> {
+pub(super) fn initial(state: Vec<f64>, grid: &Grid) -> Result<InitialState, Diagnostic> {
     let place = "/initial_state";
     let exact = vector(place, &state, grid.dimension(), "one per dimension of the state")?;
     let outside = (0..state.len()).find(|&j| grid.axes()[j].locate(&exact[j]).is_none());

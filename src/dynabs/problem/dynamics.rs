@@ -40,11 +40,14 @@ impl From<LinearDynamics> for Dynamics {
 }
 
 impl LinearDynamics {
-    /// The system, if shapes fit, `A` is regular and `(A, B)` controllable.
-    pub(super) fn system(&self) -> Result<LinearSystem, Diagnostic> {
+    /// The system, if shapes fit; `B` may be empty.
+    pub(crate) fn any_system(&self) -> Result<LinearSystem, Diagnostic> {
         let a = matrix("/dynamics/A", &self.a, None, Some(self.a.len()), "A is square")?;
         let n = a.rows();
-        let b = matrix("/dynamics/B", &self.b, Some(n), None, "as many as A has")?;
+        let b = match self.b.is_empty() {
+            true => ExactMatrix::zeros(n, 0),
+            false => matrix("/dynamics/B", &self.b, Some(n), None, "as many as A has")?,
+        };
         let q = match &self.q {
             None => ExactMatrix::zeros(n, 1),
             Some(q) => {
@@ -52,7 +55,20 @@ impl LinearDynamics {
                 ExactMatrix::from_fn(n, 1, |i, _| q[i].clone())
             }
         };
-        let system = LinearSystem::new(a, b, q);
+        Ok(LinearSystem::new(a, b, q))
+    }
+
+    /// The system, if shapes fit, `A` is regular and `(A, B)` controllable.
+    pub(super) fn system(&self) -> Result<LinearSystem, Diagnostic> {
+        if self.b.is_empty() {
+            return Err(Diagnostic::at(
+                "/dynamics/B",
+                "no rows",
+                format!("{}, as many as A has", self.a.len()),
+            ));
+        }
+        let system = self.any_system()?;
+        let n = system.state_dimension();
         if !system.is_regular() {
             let found = format!("a singular matrix of rank {}", system.a().rank());
             return Err(Diagnostic::at("/dynamics/A", found, format!("a non-singular matrix of rank {n}"))

@@ -26,7 +26,9 @@
 //! ```
 
 mod builder;
+mod distribution;
 mod dynamics;
+mod input_problem;
 mod input_set;
 mod lower_layer;
 mod noise;
@@ -38,7 +40,9 @@ mod task;
 mod values;
 
 pub use builder::ProblemBuilder;
+pub use distribution::DistributionParts;
 pub use dynamics::{Dynamics, GroupSteps, LinearDynamics};
+pub use input_problem::{InputChoice, InputParts, InputProblem};
 pub use input_set::InputSet;
 pub use lower_layer::{Gain, LowerLayer, LqrWeights, Stabilizer};
 pub use noise::{

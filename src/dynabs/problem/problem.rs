@@ -2,6 +2,7 @@
 
 use super::{Dynamics, InputSet, Probabilities, ProblemBuilder, SampledNoise, Stabilizer};
 use crate::geometry::Polytope;
+use crate::landing::Aim;
 use crate::partition::{CellId, CellLabels, Grid, Region};
 use crate::system::LinearSystem;
 use imdp::numeric::Rational;
@@ -45,6 +46,21 @@ pub enum Objective {
         /// The goal, a union of boxes.
         goal: Vec<Region>,
     },
+    /// To stay in a region.
+    Stay {
+        /// The region, a union of boxes; empty for the whole partition.
+        safe: Vec<Region>,
+    },
+}
+
+impl Objective {
+    /// Whether something is to be reached or to be kept.
+    pub fn aim(&self) -> Aim {
+        match self {
+            Self::Reach { .. } => Aim::Reach,
+            Self::Stay { .. } => Aim::Stay,
+        }
+    }
 }
 
 /// What the controller chooses from in every cell.
@@ -123,8 +139,10 @@ impl Problem {
 
     /// The goal region, empty if nothing is to be reached.
     pub fn goal(&self) -> &[Region] {
-        let Objective::Reach { goal } = &self.objective;
-        goal
+        match &self.objective {
+            Objective::Reach { goal } => goal,
+            Objective::Stay { .. } => &[],
+        }
     }
 
     /// The unsafe region.

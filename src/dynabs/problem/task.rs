@@ -29,6 +29,11 @@ pub enum Aim {
         /// The boxes.
         goal: Vec<RegionBox>,
     },
+    /// To be in a union of boxes at every step up to the horizon; a cell counts if the union contains it.
+    Stay {
+        /// The boxes; empty for the whole partition.
+        safe: Vec<RegionBox>,
+    },
 }
 
 /// A number of original steps.
@@ -44,6 +49,11 @@ impl Task {
     /// To reach a union of boxes some time.
     pub fn reach(goal: Vec<RegionBox>) -> Self {
         Self { aim: Aim::Reach { goal }, unsafe_: vec![], horizon: Horizon::Infinite, threshold: None }
+    }
+
+    /// To stay in a union of boxes for ever; in the whole partition if there are none.
+    pub fn stay(safe: Vec<RegionBox>) -> Self {
+        Self { aim: Aim::Stay { safe }, unsafe_: vec![], horizon: Horizon::Infinite, threshold: None }
     }
 
     /// Avoiding these boxes.
@@ -83,28 +93,18 @@ impl CheckedTask {
     /// Checks the regions, labels the cells, counts the horizon in groups of `d` steps.
     pub(super) fn new(task: &Task, grid: &Grid, d: usize) -> Result<Self, Diagnostic> {
         let n = grid.dimension();
-        let Aim::Reach { goal } = &task.aim;
-        let goal = regions("/task/goal", goal, n)?;
         let unsafe_ = regions("/task/unsafe", &task.unsafe_, n)?;
-        if let Some((i, j)) = first_overlap(&goal, &unsafe_) {
-            let found = format!("box {i} overlaps /task/unsafe/{j}");
-            let expected = "goal boxes that meet no unsafe box";
-            return Err(Diagnostic::at(format!("/task/goal/{i}"), found, expected)
-                .remedy("Cut the overlap out of one of the two; boxes may touch."));
-        }
         Need::of_cells(grid).check().map_err(|error| Diagnostic::from(&error))?;
-        let labels = CellLabels::new(grid, &goal, &unsafe_);
-        if labels.count(CellKind::Goal) == 0 {
-            let expected = format!("at least one whole cell inside it; cells measure {}", widths(grid));
-            return Err(Diagnostic::at(
-                "/task/goal",
-                "a goal that contains no cell of the partition",
-                expected,
-            )
-            .remedy("Enlarge the goal, align its faces with the grid, or use more cells."));
-        }
+        let (objective, labels) = match &task.aim {
+            Aim::Reach { goal } => reach(goal, &unsafe_, grid)?,
+            Aim::Stay { safe } => stay(safe, &unsafe_, grid)?,
+        };
         let mut warnings = Vec::new();
-        for (name, list) in [("goal", &goal), ("unsafe", &unsafe_)] {
+        let wanted = match &objective {
+            Objective::Reach { goal } => ("goal", goal),
+            Objective::Stay { safe } => ("safe", safe),
+        };
+        for (name, list) in [wanted, ("unsafe", &unsafe_)] {
             warnings.extend(near_misses(grid, list).iter().map(|miss| near_miss_warning(name, miss)));
         }
         let horizon = horizon(task.horizon, d, &mut warnings)?;
@@ -112,8 +112,42 @@ impl CheckedTask {
             warnings.push(format!("the unsafe region is checked every {d} steps, at grouped instants only"));
         }
         let threshold = task.threshold.map(threshold).transpose()?;
-        Ok(Self { objective: Objective::Reach { goal }, unsafe_, labels, horizon, threshold, warnings })
+        Ok(Self { objective, unsafe_, labels, horizon, threshold, warnings })
     }
+}
+
+/// The goal, which must contain a cell.
+fn reach(goal: &[RegionBox], unsafe_: &[Region], grid: &Grid) -> Result<(Objective, CellLabels), Diagnostic> {
+    let goal = regions("/task/goal", goal, grid.dimension())?;
+    if let Some((i, j)) = first_overlap(&goal, unsafe_) {
+        let found = format!("box {i} overlaps /task/unsafe/{j}");
+        let expected = "goal boxes that meet no unsafe box";
+        return Err(Diagnostic::at(format!("/task/goal/{i}"), found, expected)
+            .remedy("Cut the overlap out of one of the two; boxes may touch."));
+    }
+    let labels = CellLabels::new(grid, &goal, unsafe_);
+    if labels.count(CellKind::Goal) == 0 {
+        let expected = format!("at least one whole cell inside it; cells measure {}", widths(grid));
+        return Err(Diagnostic::at("/task/goal", "a goal that contains no cell of the partition", expected)
+            .remedy("Enlarge the goal, align its faces with the grid, or use more cells."));
+    }
+    Ok((Objective::Reach { goal }, labels))
+}
+
+/// The region to stay in, which must contain a cell that is not unsafe.
+fn stay(safe: &[RegionBox], unsafe_: &[Region], grid: &Grid) -> Result<(Objective, CellLabels), Diagnostic> {
+    let safe = regions("/task/safe", safe, grid.dimension())?;
+    let labels = CellLabels::staying(grid, &safe, unsafe_);
+    if labels.count(CellKind::Ordinary) == 0 {
+        let expected = format!("at least one whole cell inside it; cells measure {}", widths(grid));
+        return Err(Diagnostic::at(
+            "/task/safe",
+            "a region that contains no safe cell of the partition",
+            expected,
+        )
+        .remedy("Enlarge the region, align its faces with the grid, or use more cells."));
+    }
+    Ok((Objective::Stay { safe }, labels))
 }
 
 fn horizon(horizon: Horizon, d: usize, warnings: &mut Vec<String>) -> Result<Option<u64>, Diagnostic> {

@@ -101,6 +101,9 @@ pub(super) fn sizes(material: &Material<'_>) -> String {
 pub(super) fn budget(run: &Run) -> String {
     let samples = match &run.manifest.guarantee.evidence {
         Evidence::Samples(samples) => samples,
+        Evidence::Known { .. } => {
+            return "<p>Known noise needs no budget: its masses are certain.</p>\n".into();
+        }
         Evidence::Published { beta_per_interval } => {
             return format!(
                 "<p>Reference mode has no budget: every interval has the level {} for itself.</p>\n",

@@ -30,6 +30,11 @@ pub(super) fn guarantee(material: &Material<'_>) -> String {
                 conditions(guarantee, samples)
             )
         }
+        Evidence::Known { .. } => format!(
+            "<div class=\"promise\"><p class=\"figures\"><strong>≥ {}</strong> success</p>\n{paragraphs}{}</div>\n",
+            lower_bound_text(material.controller.promised().bound),
+            threshold(material)
+        ),
         Evidence::Published { .. } => format!(
             "<div class=\"promise none\"><p class=\"figures\"><strong>No guarantee</strong></p>\n{paragraphs}<p>Every \
              interval by itself has a confidence level, but nothing makes them hold together; cells that no sample met \

@@ -27,10 +27,10 @@ struct Head {
 
 impl RunFiles {
     /// The files of the run in a directory, after finishing what a killed process had decided to write there; none if
-    /// there is no manifest of ours.
+    /// there is no manifest.
     ///
     /// # Errors
-    /// [`OpenError::Io`] if the manifest cannot be read.
+    /// [`OpenError::Io`] if the manifest cannot be read, [`OpenError::NoRun`] if it is none of ours.
     pub fn find(directory: &Path) -> Result<Option<Self>, OpenError> {
         let io = |path: &Path| {
             let path = path.display().to_string();
@@ -45,9 +45,13 @@ impl RunFiles {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             read => read.map_err(io(&path))?,
         };
-        let head = serde_json::from_slice::<Head>(&manifest).ok();
-        let head = head.filter(|head| Manifest::is_format(&head.format));
-        Ok(head.map(|head| Self { directory: directory.to_owned(), manifest, outputs: head.outputs }))
+        let mut files = Self { directory: directory.to_owned(), manifest, outputs: vec![] };
+        let head: Head = serde_json::from_slice(&files.manifest).map_err(|error| files.not_read(&error))?;
+        if !Manifest::is_format(&head.format) {
+            return Err(files.refuse(format!("the {MANIFEST} of another format")));
+        }
+        files.outputs = head.outputs;
+        Ok(Some(files))
     }
 
     /// The manifest as a whole.
@@ -55,8 +59,7 @@ impl RunFiles {
     /// # Errors
     /// [`OpenError::NoRun`] if it is one of another version.
     pub fn manifest(&self) -> Result<Manifest, OpenError> {
-        serde_json::from_slice(&self.manifest)
-            .map_err(|error| self.refuse(format!("a {MANIFEST} that cannot be read ({error})")))
+        serde_json::from_slice(&self.manifest).map_err(|error| self.not_read(&error))
     }
 
     /// Reads a file that the manifest lists.
@@ -95,6 +98,10 @@ impl RunFiles {
 
     pub(super) fn refuse(&self, found: String) -> OpenError {
         OpenError::NoRun { path: self.directory.display().to_string(), found }
+    }
+
+    fn not_read(&self, error: &serde_json::Error) -> OpenError {
+        self.refuse(format!("a {MANIFEST} that cannot be read ({error})"))
     }
 
     fn unreadable(&self, name: &str, error: io::Error) -> OpenError {

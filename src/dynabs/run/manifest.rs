@@ -46,6 +46,9 @@ pub struct Manifest {
     pub horizon: Option<GroupedHorizon>,
     /// The number of original steps that one model step stands for.
     pub group_steps: u64,
+    /// How many steps of the model are one step of the system, where actions are inputs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub micro_steps: Option<u64>,
     /// The task as a property.
     pub property: String,
     /// The threshold asked for.
@@ -141,6 +144,7 @@ impl Manifest {
                 .horizon()
                 .map(|steps| GroupedHorizon { model_steps: steps, original_steps: steps * d }),
             group_steps: d,
+            micro_steps: None,
             property: abstraction.property.to_string(),
             threshold: problem.threshold().map(Probability::to_f64),
             initial_state: problem.initial_state().map(<[f64]>::to_vec),
@@ -155,6 +159,43 @@ impl Manifest {
             warnings: problem.warnings().iter().chain(&abstraction.warnings).cloned().collect(),
             set: vec![],
             inputs: inputs(document, source, problem),
+            outputs: vec![],
+        }
+    }
+
+    /// A manifest that says nothing yet.
+    pub(super) fn empty() -> Self {
+        Self {
+            format: FORMAT.into(),
+            format_version: FORMAT_VERSION,
+            version: env!("CARGO_PKG_VERSION").into(),
+            name: String::new(),
+            states: 0,
+            choices: 0,
+            transitions: 0,
+            rows: 0,
+            row_entries: 0,
+            mode: String::new(),
+            guarantee: Guarantee::none(),
+            horizon: None,
+            group_steps: 1,
+            micro_steps: None,
+            property: String::new(),
+            threshold: None,
+            initial_state: None,
+            initial_model_state: None,
+            stabilizer: None,
+            row_states: None,
+            pruning: None,
+            prism_lower_bound: RAISED_LOWER_BOUND,
+            prism_lower_bound_note:
+                "model.tra raises lower bounds of 0 to this; the native value is that of the bounds of 0"
+                    .into(),
+            samples: 0,
+            seed: None,
+            warnings: vec![],
+            set: vec![],
+            inputs: vec![],
             outputs: vec![],
         }
     }

@@ -2,6 +2,7 @@
 
 mod appearance;
 mod files;
+mod input_run;
 mod manifest;
 mod open;
 mod pruning;
@@ -11,6 +12,7 @@ mod staging;
 mod write;
 
 pub use files::RunFiles;
+pub use input_run::{InputRun, write_input_run};
 pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile};
 pub use open::{OpenError, Run};
 pub use pruning::PruningReport;

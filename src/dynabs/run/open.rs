@@ -114,6 +114,14 @@ pub enum OpenError {
         /// What is wrong with it.
         error: NativeError,
     },
+    /// A problem whose actions are inputs has no abstraction any more.
+    #[error("{path}: {error}")]
+    Inputs {
+        /// The directory.
+        path: String,
+        /// Why.
+        error: Box<crate::abstraction::inputs::InputsError>,
+    },
     /// Problem and model do not fit.
     #[error("{path}: {error}\n  Compile the model again with this version of dynabs.")]
     Abstraction {

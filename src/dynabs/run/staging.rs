@@ -60,6 +60,9 @@ pub enum RunDirectoryError {
     /// The model or its property has no encoding with row states.
     #[error(transparent)]
     Encoding(#[from] EncodingError),
+    /// The parts do not make a model.
+    #[error(transparent)]
+    Model(#[from] imdp::model::ImdpError),
     /// Reading or writing failed.
     #[error("{path}: {error}")]
     Io {

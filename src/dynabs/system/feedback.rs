@@ -48,6 +48,11 @@ impl Feedback {
         &self.margins
     }
 
+    /// `K` in doubles, row by row: what [`input`](Self::input) computes with.
+    pub fn nearest_gain(&self) -> &[f64] {
+        &self.nearest
+    }
+
     /// Whether `K = 0`.
     pub fn is_none(&self) -> bool {
         self.gain.entries().iter().all(Zero::is_zero)

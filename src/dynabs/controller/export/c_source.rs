@@ -111,12 +111,12 @@ impl Tables {
 }
 
 /// The shortest literal that a C compiler reads as this double.
-fn double(x: &f64) -> String {
+pub(super) fn double(x: &f64) -> String {
     format!("{x:?}")
 }
 
 /// Items separated by commas, on lines of readable width.
-fn list(items: impl Iterator<Item = impl Display>) -> String {
+pub(super) fn list(items: impl Iterator<Item = impl Display>) -> String {
     let mut text = String::from("   ");
     let mut column = text.len();
     for (i, item) in items.enumerate() {
@@ -136,13 +136,13 @@ fn list(items: impl Iterator<Item = impl Display>) -> String {
 }
 
 /// A table with rows of `n` doubles.
-fn rows(table: &[f64], n: usize) -> String {
+pub(super) fn rows(table: &[f64], n: usize) -> String {
     let row = |row: &[f64]| format!("    {{{}}}", row.iter().map(double).collect::<Vec<_>>().join(", "));
     table.chunks_exact(n).map(row).collect::<Vec<_>>().join(",\n")
 }
 
 /// A C identifier made of a name.
-fn identifier(name: &str) -> String {
+pub(super) fn identifier(name: &str) -> String {
     let mut text: String =
         name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' }).collect();
     if !text.starts_with(|c: char| c.is_ascii_alphabetic()) {
@@ -153,13 +153,13 @@ fn identifier(name: &str) -> String {
 }
 
 /// Text that neither ends a comment nor means anything else to a C compiler.
-fn comment(text: &str) -> String {
+pub(super) fn comment(text: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || " _.,:;()=<>+-".contains(c);
     text.chars().map(|c| if plain(c) { c } else { '_' }).collect()
 }
 
 /// Sentences as lines of a comment.
-fn promise(sentences: &[String]) -> String {
+pub(super) fn promise(sentences: &[String]) -> String {
     let mut lines = vec![];
     let mut line = String::from(" *");
     for word in sentences.iter().flat_map(|sentence| sentence.split(' ')) {

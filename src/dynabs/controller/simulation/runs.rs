@@ -185,8 +185,8 @@ impl<'a> Simulation<'a> {
             let decision = self.controller.control(&scratch.x, outcome.steps, &mut scratch.u);
             let step = outcome.steps * d as u64;
             let end = match decision {
-                Decision::Steer { .. } if outcome.steps < self.most_steps => None,
-                Decision::Steer { .. } => Some(End::Unfinished),
+                Decision::Steer { .. } | Decision::Apply { .. } if outcome.steps < self.most_steps => None,
+                Decision::Steer { .. } | Decision::Apply { .. } => Some(End::Unfinished),
                 Decision::Reached => Some(End::Reached),
                 Decision::Unsafe => Some(End::Unsafe),
                 Decision::Outside => Some(End::Outside),

@@ -1,0 +1,104 @@
+//! `dynabs-compile` for actions that are inputs.
+
+use crate::input_summary::{InputResult, summary};
+use crate::{Bars, CliError, print, warn};
+use dynabs::abstraction::inputs::{InputAbstraction, InputsError};
+use dynabs::model_file::Document;
+use dynabs::problem::InputProblem;
+use dynabs::run::{Manifest, WriteOptions, write_input_run};
+use imdp::progress::Progress;
+use imdp::solver::SolverOptions;
+use serde_json::{Map, Value, json};
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What is wanted.
+pub(super) struct Wanted<'a> {
+    /// Where to write what.
+    pub(super) output: Option<(&'a Path, WriteOptions)>,
+    /// What `--set` changed.
+    pub(super) set: &'a [String],
+    pub(super) solve: bool,
+    pub(super) json: bool,
+    pub(super) quiet: bool,
+}
+
+/// Abstracts, solves and reports.
+///
+/// # Errors
+/// [`CliError`], which knows its exit code.
+pub(super) fn compile_inputs(
+    (document, source): (&Document, &str),
+    problem: &InputProblem,
+    wanted: &Wanted<'_>,
+    notes: Vec<String>,
+    start: Instant,
+    bars: &Arc<Bars>,
+) -> Result<ExitCode, CliError> {
+    let read = start.elapsed();
+    let abstraction = InputAbstraction::new(problem).map_err(|error| of_inputs(&error, &document.name))?;
+    bars.catch_interrupts();
+    let mut phases = vec![("model file", read)];
+    phases.extend(&abstraction.phases);
+    let mut manifest = Manifest::of_inputs(document, source, problem, &abstraction);
+    manifest.set = wanted.set.to_vec();
+    manifest.warnings.extend(notes);
+    if let Some((output, options)) = &wanted.output {
+        let writing = Instant::now();
+        manifest = write_input_run(output, document, problem, &abstraction, manifest, options, &**bars)?;
+        phases.push(("files", writing.elapsed()));
+    }
+    let solving = Instant::now();
+    let result = if wanted.solve {
+        let progress =
+            |step, change: f64| bars.note(|| format!("step {step}, values change by {change:.1e}"));
+        let options = SolverOptions {
+            interrupt: Some(bars.interrupt()),
+            progress: Some(&progress),
+            ..SolverOptions::default()
+        };
+        let solution = abstraction.question().solve(&options);
+        bars.finish();
+        phases.push(("solving", solving.elapsed()));
+        Some(InputResult::new(problem, &abstraction, &solution, solving.elapsed()))
+    } else {
+        None
+    };
+    if !wanted.quiet {
+        manifest.warnings.iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
+        let times: Vec<_> = phases.iter().map(|(name, time)| format!("{name} {time:.1?}")).collect();
+        warn(&format!("times: {}\n", times.join(", ")));
+    }
+    if wanted.json {
+        let seconds: Map<String, Value> =
+            phases.iter().map(|(name, time)| ((*name).to_owned(), time.as_secs_f64().into())).collect();
+        let object = json!({
+            "cells": problem.grid().num_cells(),
+            "inputs": problem.inputs().len(),
+            "choices": abstraction.num_choices(),
+            "resolution": abstraction.resolution,
+            "manifest": manifest,
+            "result": result,
+            "seconds": seconds,
+        });
+        print(&format!("{object:#}\n"))?;
+    } else if !wanted.quiet {
+        let initial =
+            if problem.initial_state().is_some() { "at the initial state" } else { "over all cells" };
+        let mut text = summary(problem, &abstraction);
+        if let Some((output, _)) = &wanted.output {
+            let bytes: u64 = manifest.outputs.iter().map(|file| file.bytes).sum();
+            text += &format!("  {:<13}{} ({:.1} MB)\n", "written", output.display(), bytes as f64 / 1e6);
+        }
+        text += &result.as_ref().map_or(String::new(), |result| result.text(initial));
+        print(&text)?;
+    }
+    Ok(result.map_or(ExitCode::SUCCESS, |result| result.exit_code()))
+}
+
+/// A mistake in the file, or a machine too small.
+fn of_inputs(error: &InputsError, file: &str) -> CliError {
+    CliError::Input(format!("{file}: {error}"))
+}

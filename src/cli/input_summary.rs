@@ -1,0 +1,156 @@
+//! What came of a problem whose actions are inputs, for people and programs.
+
+use super::thousands;
+use dynabs::abstraction::inputs::InputAbstraction;
+use dynabs::landing::LandingSolution;
+use dynabs::problem::InputProblem;
+use imdp::numeric::shortest_decimal;
+use imdp::property::Verdict;
+use imdp::solver::Status;
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::process::ExitCode;
+use std::time::Duration;
+
+/// The value of the task.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(super) struct InputResult {
+    /// The least lower bound of all initial cells.
+    pub(super) lower: f64,
+    /// The greatest upper bound of all initial cells.
+    pub(super) upper: f64,
+    /// The greatest lower bound of all cells that are neither goal nor lost.
+    pub(super) best: f64,
+    /// The mean lower bound of these cells.
+    pub(super) mean: f64,
+    /// Whether the threshold is met from all initial cells; `null` if undecided or not asked.
+    pub(super) satisfied: Option<bool>,
+    /// How the computation ended.
+    pub(super) status: String,
+    /// The number of steps.
+    pub(super) steps: u64,
+    /// How long it took.
+    pub(super) seconds: f64,
+    #[serde(skip)]
+    ended: bool,
+}
+
+impl InputResult {
+    pub(super) fn new(
+        problem: &InputProblem,
+        abstraction: &InputAbstraction,
+        solution: &LandingSolution,
+        time: Duration,
+    ) -> Self {
+        let initial = abstraction.initial(problem.initial_cell());
+        let at = |values: &[f64], cell: &u32| values[*cell as usize];
+        let lower = initial.iter().map(|cell| at(&solution.values.lower, cell)).fold(1.0, f64::min);
+        let upper = initial.iter().map(|cell| at(&solution.values.upper, cell)).fold(0.0, f64::max);
+        let open = abstraction.question().open;
+        let verdict = problem.threshold().map(|threshold| {
+            let of_cell = |cell: &u32| {
+                threshold_verdict(
+                    threshold.to_f64(),
+                    at(&solution.values.lower, cell),
+                    at(&solution.values.upper, cell),
+                )
+            };
+            Verdict::in_all(initial.iter().map(of_cell))
+        });
+        Self {
+            lower,
+            upper,
+            best: open.iter().map(|cell| at(&solution.values.lower, cell)).fold(0.0, f64::max),
+            mean: open.iter().map(|cell| at(&solution.values.lower, cell)).sum::<f64>()
+                / open.len().max(1) as f64,
+            satisfied: match verdict {
+                Some(Verdict::Holds) => Some(true),
+                Some(Verdict::Fails) => Some(false),
+                Some(Verdict::Unknown) | None => None,
+            },
+            status: solution.status.to_string(),
+            steps: solution.iterations,
+            seconds: time.as_secs_f64(),
+            ended: match verdict {
+                None => matches!(
+                    solution.status,
+                    Status::HorizonReached | Status::Converged | Status::PrecisionLimit
+                ),
+                Some(verdict) => verdict != Verdict::Unknown,
+            },
+        }
+    }
+
+    /// 1 if the threshold is missed, 3 if that is undecided, else 0.
+    pub(super) fn exit_code(&self) -> ExitCode {
+        match (self.satisfied, self.ended) {
+            (Some(false), _) => ExitCode::from(1),
+            (_, false) => ExitCode::from(3),
+            (_, true) => ExitCode::SUCCESS,
+        }
+    }
+
+    /// Two lines for people.
+    pub(super) fn text(&self, initial: &str) -> String {
+        let verdict = self.satisfied.map_or(String::new(), |satisfied| format!("{satisfied}   "));
+        format!(
+            "  {verdict}value in [{:.6}, {:.6}] {initial}; best {:.6}, mean {:.6} over cells   {}, {} steps, {:.1?}\n",
+            self.lower,
+            self.upper,
+            self.best,
+            self.mean,
+            self.status,
+            self.steps,
+            Duration::from_secs_f64(self.seconds)
+        )
+    }
+}
+
+fn threshold_verdict(threshold: f64, lower: f64, upper: f64) -> Verdict {
+    if lower >= threshold {
+        Verdict::Holds
+    } else if upper < threshold {
+        Verdict::Fails
+    } else {
+        Verdict::Unknown
+    }
+}
+
+/// The size of things.
+pub(super) fn summary(problem: &InputProblem, abstraction: &InputAbstraction) -> String {
+    let mut text = format!("{} (actions are inputs)\n", problem.name());
+    let mut line = |name: &str, value: String| {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {name:<13}{value}");
+    };
+    let question = abstraction.question();
+    let cells = problem.grid().num_cells();
+    line(
+        "cells",
+        format!(
+            "{}, in {} of them something is decided",
+            thousands(cells.into()),
+            thousands(question.open.len() as u64)
+        ),
+    );
+    line("inputs", thousands(problem.inputs().len() as u64));
+    line("choices", thousands(abstraction.num_choices() as u64));
+    let axes = question.landing.axes();
+    let by_axis = |of: &dyn Fn(usize) -> String| (0..axes.len()).map(of).collect::<Vec<_>>().join(" × ");
+    line(
+        "lattice",
+        format!(
+            "{} sub-cells, {} a cell",
+            by_axis(&|j| axes[j].len.to_string()),
+            by_axis(&|j| axes[j].resolution.to_string())
+        ),
+    );
+    let noise = |j: usize| {
+        axes[j].noise.as_ref().map_or("none".to_owned(), |taps| format!("{} intervals", taps.lower.len()))
+    };
+    line("noise", format!("known: {}", (0..axes.len()).map(noise).collect::<Vec<_>>().join(", ")));
+    let lost =
+        axes.iter().filter_map(|axis| axis.noise.as_ref()).map(|taps| taps.slack()).fold(0.0, f64::max);
+    line("unlisted", format!("mass at most {} in a component", shortest_decimal(lost)));
+    text
+}
