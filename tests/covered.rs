@@ -172,7 +172,13 @@ fn small_model() -> IntervalMdp {
 fn guarantee() -> Guarantee {
     let samples = SampleEvidence { number: 100, beta: 0.01, sweep: 1, budget: vec![], unseen_mass: 0.1 };
     Guarantee {
-        event: Event { aim: Aim::Reach, horizon: None, group_steps: 1, safety: Safety::EveryStep },
+        event: Event {
+            aim: Aim::Reach,
+            horizon: None,
+            group_steps: 1,
+            safety: Safety::EveryStep,
+            outside: Safety::EveryStep,
+        },
         evidence: Evidence::Samples(samples),
     }
 }

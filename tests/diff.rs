@@ -268,7 +268,6 @@ fn what_cannot_be_compared_is_refused() {
     refused(&scratch.files("line", &[("policy.txt", "0=b\n1\n")]), "policy.txt:2");
     refused(&scratch.files("action", &[("policy.txt", "0=up\n")]), "\"up\" in state 0");
     refused(&scratch.files("state", &[("policy.txt", "0=a\n9=b\n")]).join("policy.txt"), "another file");
-    refused(&scratch.files("no-lab", &[("model.tra", TRA)]), "model.lab");
     refused(&scratch.files("manifest", &[("manifest.json", "{}")]), "manifest.json");
     refused(&scratch.files("native", &[("model.dynabs", "DYNABS\r\n")]), "model.dynabs");
     let bad = [

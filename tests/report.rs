@@ -41,7 +41,7 @@ fn reported(directory: &Path, times: Vec<(&'static str, Duration)>) -> Reported 
     let controller = Controller::new(&run.problem, &run.abstraction, &answer).unwrap();
     let cross_checks = CrossChecks::read(directory, &run.manifest).unwrap();
     let options = MaterialOptions { seed: 1, runs: 300, drawn: 12, times, cross_checks };
-    let material = Material::new(&run, &answer, &controller, options, &solver, &()).unwrap();
+    let material = Material::new(&run, &answer, &controller, options, &());
     let (page, pictures) = (page(&material).unwrap(), pictures(&material));
     Reported { answer, run, page, pictures }
 }

@@ -32,12 +32,13 @@ fn shipped_models_keep_their_promise() {
     for model in shipped_models() {
         let closed = Loop::of(&model, &[]);
         let tally = tally(&closed, true_noise(&model, &closed.problem), 4000);
-        let frequency = tally.satisfaction(0.01);
+        let frequency = tally.satisfaction(closed.problem.safety(), 0.01);
         assert!(frequency.frequency >= closed.answer.lower, "{model}: {tally:?} < {}", closed.answer.lower);
         assert!(!frequency.contradicts(closed.answer.lower));
         assert_eq!((tally.runs, tally.violations), (4000, 0), "{model}");
         // Goal cells lie in the goal region, and cells on the way do not meet the unsafe one.
-        assert!(tally.satisfied >= tally.reached, "{model}: {tally:?}");
+        assert!(tally.satisfied_at_instants >= tally.reached, "{model}: {tally:?}");
+        assert!(tally.satisfied >= tally.reached_safely, "{model}: {tally:?}");
         let ends =
             [tally.reached, tally.r#unsafe, tally.outside, tally.no_action, tally.over, tally.unfinished];
         assert_eq!(ends.iter().sum::<u64>(), tally.runs);
@@ -86,7 +87,7 @@ fn unbounded_tasks_are_simulated_to_their_end() {
     let start = closed.problem.initial_state().unwrap().to_vec();
     let short = Simulation::new(&closed.problem, &closed.controller, noise, 1).tally(&start, 7, 2000, &());
     assert_eq!((short.unfinished, short.open, short.over), (2000, 2000, 0));
-    assert!(!short.satisfaction(0.01).contradicts(closed.answer.lower));
+    assert!(!short.satisfaction(closed.problem.safety(), 0.01).contradicts(closed.answer.lower));
 }
 
 fn check(arguments: &[&str]) -> Output {

@@ -1,7 +1,7 @@
 //! Choices of the library that an option names.
 
 use clap::ValueEnum;
-use imdp::formats::{Encoding, Format};
+use imdp::formats::{Encoding, Format, Names};
 
 /// The formats, as `--format` names them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -42,6 +42,58 @@ impl From<EncodingName> for Encoding {
         match name {
             EncodingName::Plain => Self::Plain,
             EncodingName::Rows => Self::Rows,
+        }
+    }
+}
+
+/// The formats that models can be converted into, as `--to` names them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum AnyFormatName {
+    /// PRISM's explicit files: .tra, .sta and .lab.
+    Prism,
+    /// Storm's explicit text format, .drn.
+    Drn,
+    /// The unified Markov binary format that PRISM and Storm read, .umb.
+    Umb,
+    /// The compact format of this program, .dynabs.
+    Dynabs,
+    /// The text format of bmdp-tool, .txt: transitions and the states to be reached only.
+    Bmdp,
+    /// The NetCDF format of IntervalMDP.jl, .nc: transitions only; .json beside has what is asked.
+    Netcdf,
+}
+
+impl From<AnyFormatName> for Format {
+    fn from(name: AnyFormatName) -> Self {
+        match name {
+            AnyFormatName::Prism => Self::Prism,
+            AnyFormatName::Drn => Self::Drn,
+            AnyFormatName::Umb => Self::Umb,
+            AnyFormatName::Dynabs => Self::Native,
+            AnyFormatName::Bmdp => Self::Bmdp,
+            AnyFormatName::Netcdf => Self::Netcdf,
+        }
+    }
+}
+
+/// What becomes of names that PRISM's files cannot express, as `--names` names it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum NamesChoice {
+    /// They are an error.
+    Keep,
+    /// They are replaced by similar ones.
+    #[default]
+    Rename,
+    /// They are left out.
+    Drop,
+}
+
+impl From<NamesChoice> for Names {
+    fn from(choice: NamesChoice) -> Self {
+        match choice {
+            NamesChoice::Keep => Self::Keep,
+            NamesChoice::Rename => Self::Rename,
+            NamesChoice::Drop => Self::Drop,
         }
     }
 }

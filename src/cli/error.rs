@@ -71,6 +71,17 @@ impl CliError {
                 "at least one cell from all of which one target can be reached with u in U",
             )
             .remedy("Enlarge U, use smaller cells, or group more steps."),
+            AbstractionError::NothingClear { group_steps } => Diagnostic::at(
+                "/task/unsafe",
+                format!(
+                    "unsafe regions that every action in every cell may meet at a step between grouped instants, {group_steps} \
+                     steps apart"
+                ),
+                "at least one action that keeps clear of them with the noise of the samples",
+            )
+            .remedy(
+                "Group fewer steps, or enlarge U; {\"check\": \"grouped\"} in /task promises nothing for the steps in between.",
+            ),
             AbstractionError::TooFewSamples { samples, needed, unseen } => Diagnostic::at(
                 "/noise",
                 format!("{samples} samples, which leave up to {unseen:.3} of the probability unseen"),

@@ -1,6 +1,7 @@
 //! Values and policies as files, in PRISM's forms.
 
 use super::CliError;
+use imdp::evaluation::Evaluation;
 use imdp::files::Outputs;
 use imdp::model::{IntervalMdp, StateId};
 use imdp::property::Verdict;
@@ -25,6 +26,30 @@ pub(super) fn write_values(model: &IntervalMdp, answer: &Answer, out: &mut impl 
             Some(Verdict::Holds) => writeln!(out, "true")?,
             Some(Verdict::Fails) => writeln!(out, "false")?,
             Some(Verdict::Unknown) => writeln!(out, "undecided")?,
+        }
+    }
+    Ok(())
+}
+
+/// Writes one line per state for an expression: the lower bound of its value, or `true`, `false` or `undecided`.
+///
+/// # Errors
+/// What writing gives.
+pub(super) fn write_evaluated(
+    model: &IntervalMdp,
+    evaluation: &Evaluation,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    for state in 0..model.num_states() as StateId {
+        match (evaluation.bounds(state), evaluation.verdict(state)) {
+            (Some((lower, _)), _) if lower.is_finite() => {
+                writeln!(out, "{}", imdp::numeric::shortest_decimal(lower))?;
+            }
+            // As PRISM writes it.
+            (Some((lower, _)), _) => writeln!(out, "{}", if lower > 0.0 { "Infinity" } else { "-Infinity" })?,
+            (None, Some(Verdict::Holds)) => writeln!(out, "true")?,
+            (None, Some(Verdict::Fails)) => writeln!(out, "false")?,
+            (None, _) => writeln!(out, "undecided")?,
         }
     }
     Ok(())

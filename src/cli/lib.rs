@@ -10,6 +10,7 @@ mod input_summary;
 mod model_source;
 mod output;
 mod progress;
+mod questions;
 mod results;
 mod run_source;
 mod signals;
@@ -20,7 +21,7 @@ mod summary;
 mod threads;
 mod trajectories;
 
-pub use choices::{EncodingName, FormatName};
+pub use choices::{AnyFormatName, EncodingName, FormatName, NamesChoice};
 pub use error::{CliError, exit_with};
 pub use output::{print, thousands, warn};
 pub use progress::Bars;

@@ -5,8 +5,8 @@ use dynabs::guarantee::{Claim, Gap, Guarantee};
 use dynabs::run::{Manifest, NATIVE_MODEL, RunFiles};
 use imdp::certificate::FileDigest;
 use imdp::files::{Snapshot, steady};
-use imdp::formats::Format;
 use imdp::formats::sha256_of_file;
+use imdp::formats::{Format, Warning};
 use imdp::model::IntervalMdp;
 use imdp::progress::Progress;
 use imdp::property::{Property, PropertyError};
@@ -18,6 +18,10 @@ pub(super) struct LoadedModel {
     pub(super) warnings: Vec<String>,
     /// The file of properties that belongs to it, if there is one.
     pub(super) properties: PathBuf,
+    /// PRISM would not read the files as they are.
+    pub(super) has_own_layout: bool,
+    /// What the model's files ask besides, in PRISM's syntax.
+    pub(super) asks: String,
     /// The files it was read from.
     files: Vec<PathBuf>,
     /// Which files these were, with that of the properties.
@@ -57,6 +61,11 @@ impl LoadedModel {
             false => promise.guarantee.claim(property, &self.model, bounds),
         };
         self.promise.as_ref().map(claim).transpose()
+    }
+
+    /// What the value of an expression claims of the system of a run: nothing.
+    pub(super) fn no_claim(&self) -> Option<Claim> {
+        self.promise.as_ref().map(|promise| promise.guarantee.no_claim(&[Gap::Expression]))
     }
 
     /// What a certificate says about the files that the model was read from.
@@ -182,6 +191,8 @@ fn load_file(path: &Path, format: Format, bars: &Bars) -> Result<LoadedModel, Cl
         true => CliError::Failure(error.to_string()),
         false => CliError::Input(error.to_string()),
     })?;
+    let layout = |warning: &Warning| matches!(warning, Warning::Layout { .. } | Warning::NoLabelFile { .. });
+    let has_own_layout = imported.warnings.iter().any(layout);
     let warnings = imported.warnings.iter().map(ToString::to_string).collect();
     let files = format.files(path);
     // `m.tra.gz` and `m.tra,sta,lab` have the properties of `m.tra`.
@@ -190,7 +201,17 @@ fn load_file(path: &Path, format: Format, bars: &Bars) -> Result<LoadedModel, Cl
     let unpacked = if packed { transitions.with_extension("") } else { transitions.to_owned() };
     let properties = unpacked.with_extension("props");
     let read = snapshot(&files, &properties);
-    Ok(LoadedModel { model: imported.model, warnings, properties, files, read, promise: None })
+    let asks = imported.properties;
+    Ok(LoadedModel {
+        model: imported.model,
+        warnings,
+        has_own_layout,
+        properties,
+        asks,
+        files,
+        read,
+        promise: None,
+    })
 }
 
 fn snapshot(files: &[PathBuf], properties: &Path) -> Snapshot {

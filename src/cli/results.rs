@@ -1,22 +1,26 @@
 //! Answers as they are printed: a table for people, objects for programs.
 
 use dynabs::guarantee::Claim;
-use imdp::property::{Property, Verdict};
+use imdp::evaluation::Evaluation;
+use imdp::model::{IntervalMdp, StateId};
+use imdp::property::{Compound, Property, Verdict};
 use imdp::solver::{Answer, Status};
-use serde::{Deserialize, Serialize};
+use serde::{Serialize, Serializer};
 use std::fmt::Write as _;
 use std::process::ExitCode;
 use std::time::Duration;
 
 /// The answer to one property.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PropertyResult {
     /// The property in PRISM's syntax.
     pub property: String,
-    /// The least lower bound of all initial states.
-    pub lower: f64,
-    /// The greatest upper bound of all initial states.
-    pub upper: f64,
+    /// The least lower bound of all initial states; none for formulas that have no value.
+    #[serde(serialize_with = "number")]
+    pub lower: Option<f64>,
+    /// The greatest upper bound of all initial states; none for formulas that have no value.
+    #[serde(serialize_with = "number")]
+    pub upper: Option<f64>,
     /// For thresholds: whether they hold in all initial states; `null` if undecided or not asked.
     pub satisfied: Option<bool>,
     /// How the computation ended.
@@ -25,39 +29,140 @@ pub struct PropertyResult {
     pub steps: u64,
     /// How long it took.
     pub seconds: f64,
+    /// If there are several initial states: what holds in each.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub initial: Vec<InitialResult>,
+    /// Why there is no answer, if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<String>,
     /// For models of a run: what the answer claims of the system.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub guarantee: Option<Claim>,
     /// Whether the question was answered: it ended by itself and no threshold lies between the bounds.
-    #[serde(skip, default)]
+    #[serde(skip)]
     decided: bool,
 }
 
+/// The answer in one initial state.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InitialResult {
+    /// The state.
+    pub state: StateId,
+    /// The lower bound of the value; none for formulas that have no value.
+    #[serde(serialize_with = "number")]
+    pub lower: Option<f64>,
+    /// The upper bound of the value; none for formulas that have no value.
+    #[serde(serialize_with = "number")]
+    pub upper: Option<f64>,
+    /// For formulas and thresholds: whether they hold; `null` if undecided or not asked.
+    pub satisfied: Option<bool>,
+}
+
+/// JSON has no infinity: it is written as PRISM does, in quotation marks.
+fn number<S: Serializer>(value: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
+    match value {
+        Some(value) if value.is_infinite() => {
+            serializer.serialize_str(if *value > 0.0 { "Infinity" } else { "-Infinity" })
+        }
+        value => value.serialize(serializer),
+    }
+}
+
 impl PropertyResult {
-    /// Summarises an answer.
-    pub fn new(property: &Property, answer: &Answer, time: Duration) -> Self {
-        let status = answer.solution.status;
+    /// Summarises an answer about a model.
+    pub fn new(property: &Property, answer: &Answer, model: &IntervalMdp, time: Duration) -> Self {
+        let in_state = |state: StateId| InitialResult {
+            state,
+            lower: Some(answer.values.lower[state as usize]),
+            upper: Some(answer.values.upper[state as usize]),
+            satisfied: answer.verdict_of(state).and_then(decided),
+        };
+        let verdict = answer.verdict;
+        let (status, steps) = (answer.solution.status, answer.solution.iterations);
+        Self::of_states(property.to_string(), model, in_state, verdict, (status, steps, time))
+    }
+
+    /// Summarises an expression.
+    pub(crate) fn of_evaluation(
+        compound: &Compound,
+        evaluation: &Evaluation,
+        model: &IntervalMdp,
+        time: Duration,
+    ) -> Self {
+        let in_state = |state: StateId| {
+            let bounds = evaluation.bounds(state);
+            InitialResult {
+                state,
+                lower: bounds.map(|bounds| bounds.0),
+                upper: bounds.map(|bounds| bounds.1),
+                satisfied: evaluation.verdict(state).and_then(decided),
+            }
+        };
+        let verdicts: Option<Vec<Verdict>> =
+            model.initial().ones().map(|state| evaluation.verdict(state as StateId)).collect();
+        let ending = (evaluation.status, evaluation.iterations, time);
+        Self::of_states(compound.to_string(), model, in_state, verdicts.map(Verdict::in_all), ending)
+    }
+
+    fn of_states(
+        property: String,
+        model: &IntervalMdp,
+        in_state: impl Fn(StateId) -> InitialResult,
+        verdict: Option<Verdict>,
+        (status, steps, time): (Status, u64, Duration),
+    ) -> Self {
+        let initial: Vec<InitialResult> =
+            model.initial().ones().map(|state| in_state(state as StateId)).collect();
         let ended = matches!(status, Status::HorizonReached | Status::Converged);
         Self {
-            property: property.to_string(),
-            lower: answer.lower,
-            upper: answer.upper,
-            satisfied: answer.satisfied(),
+            property,
+            lower: initial.iter().filter_map(|result| result.lower).reduce(f64::min),
+            upper: initial.iter().filter_map(|result| result.upper).reduce(f64::max),
+            satisfied: verdict.and_then(decided),
             status: status.to_string(),
-            steps: answer.solution.iterations,
+            steps,
             seconds: time.as_secs_f64(),
+            initial: if initial.len() > 1 { initial } else { vec![] },
+            error: None,
             guarantee: None,
-            decided: match answer.verdict {
+            decided: match verdict {
                 None => ended,
                 Some(verdict) => verdict != Verdict::Unknown,
             },
         }
     }
+
+    /// A property without an answer.
+    pub(crate) fn failed(property: &str, error: String) -> Self {
+        Self {
+            property: property.to_owned(),
+            lower: None,
+            upper: None,
+            satisfied: None,
+            status: "failed".to_owned(),
+            steps: 0,
+            seconds: 0.0,
+            initial: vec![],
+            error: Some(error),
+            guarantee: None,
+            decided: false,
+        }
+    }
 }
 
-/// 1 if a property is false, else 3 if one is undecided, else 0.
+fn decided(verdict: Verdict) -> Option<bool> {
+    match verdict {
+        Verdict::Holds => Some(true),
+        Verdict::Fails => Some(false),
+        Verdict::Unknown => None,
+    }
+}
+
+/// 2 if a property has no answer, else 1 if one is false, else 3 if one is undecided, else 0.
 pub(super) fn exit_code(results: &[PropertyResult]) -> ExitCode {
-    if results.iter().any(|result| result.satisfied == Some(false)) {
+    if results.iter().any(|result| result.error.is_some()) {
+        ExitCode::from(2)
+    } else if results.iter().any(|result| result.satisfied == Some(false)) {
         ExitCode::from(1)
     } else if results.iter().any(|result| !result.decided) {
         ExitCode::from(3)
@@ -66,14 +171,19 @@ pub(super) fn exit_code(results: &[PropertyResult]) -> ExitCode {
     }
 }
 
+/// So many initial states are listed at most.
+const LISTED: usize = 10;
+
 /// The results as a table.
 pub(super) fn table(results: &[PropertyResult]) -> String {
     let mut text = String::new();
     for result in results {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}", result.property);
-        let width = result.upper - result.lower;
-        let digits = if width > 0.0 { (2.0 - width.log10()).clamp(6.0, 15.0) as usize } else { 12 };
+        if result.error.is_some() {
+            let _ = writeln!(text, "  not answered");
+            continue;
+        }
         let caveat = result.guarantee.as_ref().and_then(|claim| claim.caveat.as_ref());
         let verdict = match (result.satisfied, result.decided) {
             // Never a bare `true` where a reader may take it for more.
@@ -82,15 +192,33 @@ pub(super) fn table(results: &[PropertyResult]) -> String {
             (None, true) => String::new(),
             (None, false) => "undecided   ".to_owned(),
         };
+        let place = match result.initial.len() {
+            0 => "the initial state".to_owned(),
+            count => format!("{count} initial states"),
+        };
         let _ = writeln!(
             text,
-            "  {verdict}value in [{:.digits$}, {:.digits$}] at the initial state   {}, {} steps, {:.1?}",
-            result.lower,
-            result.upper,
+            "  {verdict}{}at {place}   {}, {} steps, {:.1?}",
+            value(result.lower, result.upper),
             result.status,
             result.steps,
             Duration::from_secs_f64(result.seconds),
         );
+        for InitialResult { state, lower, upper, satisfied } in result.initial.iter().take(LISTED) {
+            let verdict = satisfied.map_or(String::new(), |satisfied| format!("{satisfied}   "));
+            let _ = writeln!(
+                text,
+                "    state {state}: {}",
+                format!("{verdict}{}", value(*lower, *upper)).trim_end()
+            );
+        }
+        if result.initial.len() > LISTED {
+            let _ = writeln!(
+                text,
+                "    and {} more; --values writes those of all states",
+                result.initial.len() - LISTED
+            );
+        }
         if let Some(claim) = &result.guarantee {
             let covered = if claim.covered { "covered" } else { "not covered" };
             let caveat = caveat.map_or(String::new(), |caveat| format!("; {caveat}"));
@@ -98,4 +226,15 @@ pub(super) fn table(results: &[PropertyResult]) -> String {
         }
     }
     text
+}
+
+/// `value in […] `, with as many digits as the bounds are worth; nothing for formulas.
+fn value(lower: Option<f64>, upper: Option<f64>) -> String {
+    let (Some(lower), Some(upper)) = (lower, upper) else { return String::new() };
+    if lower == upper && lower.is_infinite() {
+        return "value infinite ".to_owned();
+    }
+    let width = upper - lower;
+    let digits = if width > 0.0 { (2.0 - width.log10()).clamp(6.0, 15.0) as usize } else { 12 };
+    format!("value in [{lower:.digits$}, {upper:.digits$}] ")
 }

@@ -31,9 +31,7 @@ pub(super) struct Refined {
     pub(super) controller: Controller,
 }
 
-/// Opens a run, solves its task and refines the policy.
-///
-/// The policy is not stored anywhere: it is computed anew, and is the same every time.
+/// Opens a run, solves its task unless the run holds the solution, and refines the policy.
 ///
 /// # Errors
 /// [`CliError`] if the directory is no run, or if it was interrupted.
@@ -45,7 +43,6 @@ pub(super) fn refine(directory: &Path, bars: &Arc<Bars>) -> Result<Refined, CliE
     let options = SolverOptions {
         interrupt: Some(bars.interrupt()),
         progress: Some(&progress),
-        policy: true,
         ..SolverOptions::default()
     };
     let answer = run.solve(&options);

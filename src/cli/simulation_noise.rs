@@ -72,7 +72,15 @@ pub(super) fn noise(arguments: &NoiseArguments, run: &Run) -> Result<ChosenNoise
             ));
         }
         (None | Some("samples"), None) => {
-            let noise = if is_gaussian { Noise::GroupedSamples(own.samples.clone()) } else { Noise::of(own) };
+            let noise =
+                match &own.of_one_step {
+                    // Drawn once more, step by step.
+                    StepNoise::Gaussian(gaussian) => Noise::StepSamples(gaussian.sample(
+                        own.samples.len() * run.problem.group_steps(),
+                        own.seed().unwrap_or_default(),
+                    )),
+                    _ => Noise::of(own),
+                };
             let name = format!("the model's {} samples, drawn with replacement", own.samples.len());
             let note = "these are the samples that the promise rests on: this is no independent check of it";
             ChosenNoise { noise, name, notes: vec![note.into()] }

@@ -3,7 +3,7 @@
 use super::simulation_noise::ChosenNoise;
 use super::{CliError, thousands, warn};
 use dynabs::controller::{Controller, Frequency, InputController, Tally};
-use dynabs::guarantee::{Guarantee, lower_bound_text};
+use dynabs::guarantee::{Guarantee, Safety, lower_bound_text};
 use dynabs::landing::Aim;
 use dynabs::run::{InputRun, Run};
 use imdp::numeric::{Rational, from_decimal, shortest_decimal, to_f64};
@@ -26,8 +26,12 @@ pub(super) struct Report {
     bound: f64,
     /// The confidence of the promise; none in reference mode, which promises nothing.
     promise_confidence: Option<f64>,
-    /// In the true sets.
+    /// When the unsafe region is to be avoided.
+    safety: Safety,
+    /// In the true sets, as promised.
     satisfied: Frequency,
+    /// With everything unsafe avoided at every original step.
+    satisfied_at_every_step: Frequency,
     /// In goal cells.
     reached: Frequency,
     contradiction: bool,
@@ -73,7 +77,8 @@ impl Report {
         let Simulated { from, seed, confidence, tally, seconds } = simulated;
         // Of the decimal that was written: 0.01 for 0.99.
         let alpha = from_decimal(confidence).map_or(0.01, |p| to_f64(&(Rational::one() - p)));
-        let satisfied = tally.satisfaction(alpha);
+        let safety = guarantee.event.safety;
+        let satisfied = tally.satisfaction(safety, alpha);
         Self {
             name: name.to_owned(),
             mode: guarantee.mode(),
@@ -86,8 +91,10 @@ impl Report {
             seed,
             bound,
             promise_confidence: guarantee.confidence(),
+            safety,
             satisfied,
-            reached: tally.reaching(alpha),
+            satisfied_at_every_step: tally.satisfaction(Safety::EveryStep, alpha),
+            reached: tally.reaching(safety, alpha),
             contradiction: satisfied.contradicts(bound),
             inputs_checked: tally.steps * checks,
             counts: tally,
@@ -122,8 +129,17 @@ impl Report {
             None => "in reference mode: not a guarantee".to_owned(),
         };
         line("promised", format!("at least {} {promise}", lower_bound_text(self.bound)));
-        line("satisfied", format!("{} in the {} region", frequency(&self.satisfied), self.region));
-        line("reached", format!("{} in goal cells", frequency(&self.reached)));
+        let when = match (self.group_steps, self.safety) {
+            (1, _) => "",
+            (_, Safety::EveryStep) => ", safe at every step",
+            (_, Safety::GroupedInstants) => ", safe at grouped instants",
+        };
+        line("satisfied", format!("{} in the {} region{when}", frequency(&self.satisfied), self.region));
+        line("reached", format!("{} in goal cells{when}", frequency(&self.reached)));
+        if self.group_steps > 1 && self.safety == Safety::GroupedInstants {
+            let every = frequency(&self.satisfied_at_every_step);
+            line("every step", format!("{every} safe at every step: this is not promised"));
+        }
         let counts = &self.counts;
         let ends = [
             ("reached", counts.reached),
@@ -143,9 +159,8 @@ impl Report {
             line(
                 "in between",
                 format!(
-                    "{} runs met the unsafe region between grouped instants, {} of them satisfied; this is not covered",
-                    thousands(counts.unsafe_between),
-                    thousands(counts.satisfied_unsafe_between)
+                    "{} runs met something unsafe between grouped instants",
+                    thousands(counts.unsafe_between)
                 ),
             );
         }

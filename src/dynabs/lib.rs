@@ -75,6 +75,8 @@ pub mod report;
 pub mod run;
 pub mod statistics;
 pub mod system;
+mod warning;
 
 pub use diagnostic::Diagnostic;
 pub use imdp;
+pub use warning::Warning;

@@ -6,6 +6,7 @@
 //! | [`property`] | PRISM's property language, as far as it speaks of interval models |
 //! | [`formats`] | PRISM's explicit files, DRN, UMB and a native format, read and written |
 //! | [`solver`] | robust value iteration with bounds from both sides, policies |
+//! | [`solution_file`] | a solution stored, so that nobody need solve again |
 //! | [`certificate`], [`verify`] | what proves a result, and the checker in exact arithmetic |
 //! | [`compare`] | what differs between two runs |
 //! | [`engines`] | PRISM and Storm, asked the same questions |
@@ -14,9 +15,11 @@
 //! Nothing here knows of control. The solver fills in certificates, the checker reads them, and neither
 //! knows the other.
 
+pub mod automaton;
 pub mod certificate;
 pub mod compare;
 pub mod engines;
+pub mod evaluation;
 mod exact;
 pub mod files;
 pub mod formats;
@@ -24,5 +27,6 @@ pub mod model;
 pub mod numeric;
 pub mod progress;
 pub mod property;
+pub mod solution_file;
 pub mod solver;
 pub mod verify;

@@ -3,10 +3,12 @@
 //! `cargo bench --bench coverage` repeats this thousands of times.
 #![allow(missing_docs, clippy::unwrap_used, unreachable_pub)]
 
+mod between;
 mod noise;
 mod replication;
 mod truth;
 
+use between::BetweenFailures;
 use noise::Noise;
 use replication::{Failures, replicate};
 use truth::Layout;
@@ -76,4 +78,19 @@ fn boxes_have_the_measure_that_samples_say() {
         let all = noise.measure([f64::NEG_INFINITY; 2], [f64::INFINITY; 2]);
         assert!((all - 1.0).abs() < 1e-12, "{noise:?}: {all}");
     }
+}
+
+#[test]
+fn every_step_of_a_group_is_covered() {
+    assert!(between::best_value(SAMPLES, BETA, 1) > 0.5);
+    let mut failures = BetweenFailures::default();
+    for seed in 0..REPLICATIONS / 2 {
+        failures += between::replicate(SAMPLES, BETA, seed);
+    }
+    println!("in between, {} replications: {failures:?}", REPLICATIONS / 2);
+    let rate = |count: u64| count as f64 / (REPLICATIONS / 2) as f64;
+    assert!(rate(failures.rows) <= BETA && rate(failures.values) <= BETA, "{failures:?}");
+    // Controls: what holds at grouped instants does not hold at every step, nor does a count of all samples.
+    assert!(rate(failures.rows_at_instants) > 2.0 * BETA, "{failures:?}");
+    assert!(rate(failures.without_condition) > BETA, "{failures:?}");
 }

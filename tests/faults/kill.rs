@@ -61,8 +61,8 @@ fn controller() {
 #[test]
 fn simulate() {
     trial(&check(
-        "simulate IN/old -q --runs 10 --trajectories runs.csv",
-        "simulate IN/new -q --runs 10 --trajectories runs.csv",
+        "simulate IN/old -q --runs 10 --seed 1 --trajectories runs.csv",
+        "simulate IN/new -q --runs 10 --seed 2 --trajectories runs.csv",
     ));
 }
 

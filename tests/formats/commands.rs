@@ -95,7 +95,10 @@ fn nothing_is_replaced_by_accident_and_mistakes_are_named() {
     let mut parts = parts(&tiny::model());
     parts.labels.insert("two words", StateSet::with_capacity(5));
     let odd = write(&IntervalMdp::new(parts).unwrap(), Format::Umb, scratch.path());
-    refused(&[odd.to_str().unwrap(), &at("c.tra")], &["label `two words`", "identifier"]);
+    let keep = [odd.to_str().unwrap(), &at("c.tra"), "--names", "keep"];
+    refused(&keep, &["label `two words`", "identifier"]);
     assert!(!scratch.path().join("c.sta").exists());
+    succeed("dynabs-check", &["convert", odd.to_str().unwrap(), &at("c.tra")]);
+    assert!(fs::read_to_string(at("c.lab")).unwrap().contains("\"two_words\""));
     succeed("dynabs-check", &["convert", odd.to_str().unwrap(), &at("c.drn")]);
 }

@@ -9,7 +9,7 @@ use dynabs::imdp::model::IntervalMdp;
 use dynabs::imdp::property::{Property, parse_properties, parse_property};
 use dynabs::imdp::solver::{Answer, SolverOptions, Status};
 use dynabs::imdp::verify;
-use dynabs::model_file::{Document, Problem};
+use dynabs::model_file::Document;
 use dynabs::noise::parse_csv;
 use std::cell::OnceCell;
 use std::fs;
@@ -121,7 +121,7 @@ pub fn model_file(data: &[u8]) {
     if names_a_file(&document) || number(&document, "/noise/count") > 2000.0 || cells(&document) > 2000.0 {
         return;
     }
-    if let Ok(problem) = Problem::from_document(&document) {
+    if let Ok(problem) = document.problem() {
         let _ = compile(&problem, &());
     }
 }

@@ -89,3 +89,26 @@ fn horizons_that_no_property_can_have_are_refused() {
         assert!(ended.err.contains("/task/horizon") && ended.err.contains(horizon), "{}", ended.err);
     }
 }
+
+/// F15: rows that the reader accepts are rows to the checker.
+#[test]
+fn a_certificate_of_rounded_rows_is_accepted() {
+    let scratch = TempDir::new().unwrap();
+    let certificate = scratch.path().join("certificate");
+    let model = data("15.dynabs");
+    let model = model.to_str().unwrap();
+    let solve = [
+        "solve",
+        model,
+        "-q",
+        "-p",
+        "Pmaxmin=? [ F<=3 \"goal\" ]",
+        "--certificate",
+        certificate.to_str().unwrap(),
+    ];
+    let solved = check(&solve);
+    match solved.code {
+        Some(0) => assert_eq!(check(&["verify", certificate.to_str().unwrap(), model]).code, Some(0)),
+        code => assert!(code == Some(2) && solved.err.contains("15.dynabs"), "{}", solved.err),
+    }
+}

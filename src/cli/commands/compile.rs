@@ -1,17 +1,18 @@
 //! `dynabs-compile`: from a model file to PRISM files.
 
 use super::compile_inputs;
-use super::solve::{LimitArguments, Wanted, answer};
+use super::solve::LimitArguments;
 use crate::results::{PropertyResult, exit_code, table};
 use crate::summary::{memory, summary};
 use crate::{Bars, CliError, EncodingName, FormatName, print, use_threads, warn};
 use clap::Parser;
 use dynabs::abstraction::{Abstraction, Footprint, compile};
 use dynabs::model_file::{Document, SetArgument, StatedProblem, json_schema, starter_model};
-use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, write_run};
+use dynabs::problem::Problem;
+use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, solution_options, write_run};
 use imdp::files::{self, Outputs};
 use imdp::model::available_memory;
-use imdp::solver::Pruned;
+use imdp::solver::{Answer, Pruned};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -172,6 +173,7 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
     bars.catch_interrupts();
     let mut results = Vec::new();
     let mut pruning = None;
+    let mut solution = None;
     if arguments.prune {
         let solving = Instant::now();
         let (result, report) = prune(&mut abstraction, &bars)?;
@@ -180,6 +182,13 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
         pruning = Some(report);
         phases.push(("pruning", solving.elapsed()));
     }
+    if arguments.solve && !arguments.prune {
+        let solving = Instant::now();
+        let (answer, result) = solve(&problem, &abstraction, &bars)?;
+        results.push(result);
+        solution = Some(answer.solution);
+        phases.push(("solving", solving.elapsed()));
+    }
     let mut manifest = Manifest::new(&document, &source, &problem, &abstraction);
     manifest.set.clone_from(&arguments.set);
     manifest.warnings.append(&mut notes);
@@ -187,19 +196,13 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
 
     if let Some(output) = arguments.output.as_deref().filter(|_| !arguments.dry_run) {
         let writing = Instant::now();
-        let options = write_options(arguments);
+        let options = WriteOptions { solution: solution.as_ref(), ..write_options(arguments) };
         manifest = write_run(output, &document, &problem, &abstraction, manifest, options, &*bars)?;
         phases.push(("files", writing.elapsed()));
     }
-    if arguments.solve && !arguments.prune {
-        let limits = LimitArguments::default();
-        let solving = Instant::now();
-        let (model, property) = (&abstraction.model, &abstraction.property);
-        results.push(answer(model, property, &limits, Wanted::default(), &bars)?.1);
-        phases.push(("solving", solving.elapsed()));
-    }
     for result in &mut results {
-        let (guarantee, bounds) = (&abstraction.guarantee, [result.lower, result.upper]);
+        let (guarantee, bounds) =
+            (&abstraction.guarantee, [result.lower.unwrap_or(0.0), result.upper.unwrap_or(1.0)]);
         let claim = guarantee.claim(&abstraction.property, &abstraction.model, bounds);
         result.guarantee = Some(claim.map_err(|error| CliError::Failure(error.to_string()))?);
     }
@@ -207,12 +210,28 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
     Ok(exit_code(&results))
 }
 
-fn write_options(arguments: &Arguments) -> WriteOptions {
+/// Solves the task, with what controllers and reports need later.
+fn solve(
+    problem: &Problem,
+    abstraction: &Abstraction,
+    bars: &Bars,
+) -> Result<(Answer, PropertyResult), CliError> {
+    let start = Instant::now();
+    let (model, property) = (&abstraction.model, &abstraction.property);
+    let answer = LimitArguments::default()
+        .with_options(bars, |options| Answer::new(model, property, &solution_options(problem, options)));
+    let answer = answer.map_err(|error| CliError::Input(format!("{property}: {error}")))?;
+    let result = PropertyResult::new(property, &answer, model, start.elapsed());
+    Ok((answer, result))
+}
+
+fn write_options<'a>(arguments: &Arguments) -> WriteOptions<'a> {
     let formats = arguments.format.iter().map(|&name| name.into());
     WriteOptions {
         formats: if arguments.no_tra { vec![] } else { formats.collect() },
         encoding: arguments.encoding.into(),
         force: arguments.force,
+        solution: None,
     }
 }
 
@@ -223,7 +242,7 @@ fn prune(abstraction: &mut Abstraction, bars: &Bars) -> Result<(PropertyResult, 
     let limits = LimitArguments::of_epsilon(PRUNING_EPSILON);
     let pruned = limits.with_options(bars, |options| Pruned::new(&abstraction.model, property, options));
     let pruned = pruned.map_err(|error| CliError::Failure(format!("--prune: {property}: {error}")))?;
-    let result = PropertyResult::new(property, &pruned.after, start.elapsed());
+    let result = PropertyResult::new(property, &pruned.after, &pruned.model, start.elapsed());
     let report = PruningReport::new(property, abstraction.model.size(), &pruned);
     abstraction.model = pruned.model;
     Ok((result, report))

@@ -17,7 +17,7 @@ use std::time::Instant;
 /// What is wanted.
 pub(super) struct Wanted<'a> {
     /// Where to write what.
-    pub(super) output: Option<(&'a Path, WriteOptions)>,
+    pub(super) output: Option<(&'a Path, WriteOptions<'a>)>,
     /// What `--set` changed.
     pub(super) set: &'a [String],
     pub(super) solve: bool,

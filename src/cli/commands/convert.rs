@@ -1,15 +1,16 @@
 //! `dynabs-check convert`: from one format to another.
 
 use crate::model_source::load;
-use crate::{Bars, CliError, EncodingName, FormatName, print, thousands, warn};
+use crate::{AnyFormatName, Bars, CliError, EncodingName, NamesChoice, print, thousands, warn};
 use clap::Args;
 use imdp::files::{self, Outputs};
 use imdp::formats::prism::RAISED_LOWER_BOUND;
 use imdp::formats::row_states::{EncodingError, RowStates};
 use imdp::formats::umb::Compression;
-use imdp::formats::{Format, ModelWriter, WriteError};
+use imdp::formats::{Format, ModelWriter, WriteError, identifiers, netcdf};
+use imdp::model::IntervalMdp;
 use imdp::progress::Progress;
-use imdp::property::{Property, parse_properties};
+use imdp::property::{Definitions, Entry, Inquiry, QueryKind, parse_document};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -27,11 +28,15 @@ pub struct ConvertArguments {
 
     /// The format, whatever the extension.
     #[arg(long, value_name = "FORMAT")]
-    to: Option<FormatName>,
+    to: Option<AnyFormatName>,
 
     /// How choices are written: as they are, or with one state per row.
     #[arg(long, value_name = "ENCODING", default_value_t, value_enum)]
     encoding: EncodingName,
+
+    /// What becomes of actions, labels and variables whose names PRISM's files cannot express.
+    #[arg(long, value_name = "WHAT", default_value_t, value_enum)]
+    names: NamesChoice,
 
     /// Write UMB without compression.
     #[arg(long)]
@@ -70,7 +75,7 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
     let output = &arguments.output;
     let Some(format) = arguments.to.map(Format::from).or_else(|| Format::of_path(output)) else {
         return Err(CliError::Input(format!(
-            "{}: found a name of no known format; expected one that ends in .tra, .drn, .umb or .dynabs, or --to",
+            "{}: found a name of no known format; expected one that ends in .tra, .drn, .umb, .dynabs, .txt or .nc, or --to",
             output.display()
         )));
     };
@@ -85,15 +90,37 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
     }
     let bars = Arc::new(Bars::new(arguments.quiet));
     let loaded = load(&arguments.input, arguments.explicit, &bars)?;
-    let properties = read_properties(&loaded.properties)?;
+    let properties = Properties::read(&loaded.properties)?;
     loaded.require_unchanged()?;
     let mut warnings = loaded.warnings;
     let mut model = loaded.model;
-    let mut texts: Vec<String> = properties.iter().map(ToString::to_string).collect();
+    let rewards: Vec<_> = model.rewards().iter().map(|structure| structure.name.clone()).collect();
+    if !rewards.is_empty() {
+        warnings.push(format!("the rewards {} are not written", rewards.join(", ")));
+    }
+    let specification = properties.specification(&model).filter(|_| format == Format::Netcdf);
+    let mut text = properties.text.clone();
     if arguments.encoding == EncodingName::Rows {
         let encoded = RowStates::new(&model)?;
-        texts = properties.iter().map(|property| encoded.translate(property)).collect::<Result<_, _>>()?;
+        text = properties.translate(&encoded, &mut warnings)?;
         model = encoded.model;
+    }
+    if format == Format::Prism {
+        let (renamed, changed) = identifiers(model, arguments.names.into())
+            .map_err(|error| CliError::Failure(error.to_string()))?;
+        model = renamed;
+        warnings.extend(changed.iter().map(ToString::to_string));
+        for name in changed.iter().filter(|name| name.kind == "label") {
+            if let Some(written) = &name.written {
+                text = text.replace(&format!("\"{}\"", name.name), &format!("\"{written}\""));
+            }
+        }
+    }
+    if Format::OTHERS.contains(&format) {
+        let has_names = model.labels().iter().next().is_some() || !model.variables().is_empty();
+        if has_names {
+            warnings.push(format!("{format} has no place for labels and variables"));
+        }
     }
     if format == Format::Prism && model.rows().iter().any(|row| row.lower.contains(&0.0)) {
         warnings.push(format!("lower bounds of 0 are written as {RAISED_LOWER_BOUND:e}: PRISM refuses 0"));
@@ -110,11 +137,16 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
         written.map_err(|error| CliError::writing(&path, &error))?;
         bars.finish();
     }
-    if has_place && !texts.is_empty() && !keeps_properties(arguments) {
-        let text = texts.iter().map(|text| format!("{text}\n")).collect::<String>();
-        let path = output.with_extension("props");
+    let mut write_text = |extension: &str, text: &str| {
+        let path = output.with_extension(extension);
         let written = files.write(&path, |out| out.write_all(text.as_bytes()));
-        written.map_err(|error| CliError::writing(&path, &error))?;
+        written.map_err(|error| CliError::writing(&path, &error))
+    };
+    if let Some(specification) = specification.filter(|_| has_place) {
+        write_text("json", &format!("{specification:#}\n"))?;
+    }
+    if has_place && !text.is_empty() && !keeps_properties(arguments) {
+        write_text("props", &text)?;
     }
     let committed = if arguments.force { files.commit() } else { files.commit_new() };
     committed.map_err(|error| match error.kind() {
@@ -139,6 +171,9 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
 fn refuse_existing(arguments: &ConvertArguments, format: Format) -> Result<(), CliError> {
     let output = &arguments.output;
     let mut written = vec![output.clone()];
+    if format == Format::Netcdf {
+        written.push(output.with_extension("json"));
+    }
     if format == Format::Prism {
         written.extend(["sta", "lab"].map(|extension| output.with_extension(extension)));
     }
@@ -165,12 +200,65 @@ fn keeps_properties(arguments: &ConvertArguments) -> bool {
     arguments.encoding == EncodingName::Plain && beside == arguments.output.with_extension("props")
 }
 
-fn read_properties(path: &Path) -> Result<Vec<Property>, CliError> {
-    match files::read_text(path) {
-        Ok(text) => {
-            parse_properties(&text).map_err(|error| CliError::Input(format!("{}: {error}", path.display())))
+/// The properties of the model that is converted.
+struct Properties {
+    /// What is written to the new file.
+    text: String,
+    entries: Vec<Entry>,
+}
+
+impl Properties {
+    fn read(path: &Path) -> Result<Self, CliError> {
+        let source = match files::read_text(path) {
+            Ok(source) => source,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
+            Err(error) => return Err(CliError::reading(path, &error)),
+        };
+        let entries = parse_document(&source, &mut Definitions::default());
+        if let Some(error) = entries.iter().find_map(|entry| entry.inquiry.as_ref().err()) {
+            return Err(CliError::Input(format!("{}: {error}", path.display())));
         }
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(vec![]),
-        Err(error) => Err(CliError::reading(path, &error)),
+        let texts: Option<Vec<String>> = entries
+            .iter()
+            .map(|entry| match &entry.inquiry {
+                Ok(Inquiry::Probability(property)) => Some(format!("{property}\n")),
+                _ => None,
+            })
+            .collect();
+        // What is more than single probabilities is kept as it is, definitions and all.
+        let text = texts.map_or(source, |texts| texts.concat());
+        Ok(Self { text, entries })
+    }
+
+    /// The properties about the model with one state per row; those that cannot be translated are left out.
+    fn translate(&self, encoded: &RowStates, warnings: &mut Vec<String>) -> Result<String, CliError> {
+        let mut text = String::new();
+        for entry in &self.entries {
+            match &entry.inquiry {
+                Ok(Inquiry::Probability(property)) => {
+                    text.push_str(&format!("{}\n", encoded.translate(property)?))
+                }
+                _ => warnings.push(format!("{}: is not translated to one state per row", entry.text)),
+            }
+        }
+        Ok(text)
+    }
+
+    /// The first property as IntervalMDP.jl asks it, if it can.
+    fn specification(&self, model: &IntervalMdp) -> Option<serde_json::Value> {
+        let property = self.entries.iter().find_map(|entry| match &entry.inquiry {
+            Ok(Inquiry::Probability(property)) => Some(property),
+            _ => None,
+        })?;
+        let query = property.resolve(model.kind()).ok()?.query(model).ok()?;
+        let (QueryKind::Until { safe, goal, steps }, false) = (query.kind, query.complement) else {
+            return None;
+        };
+        let mut avoid = safe;
+        avoid.toggle_range(..);
+        avoid.difference_with(&goal);
+        let avoid = (!avoid.is_clear()).then_some(avoid);
+        let optimum = (query.resolution.policy_maximises(), query.resolution.nature_maximises());
+        Some(netcdf::specification(optimum, &goal, avoid.as_ref(), steps))
     }
 }

@@ -1,8 +1,9 @@
 //! `dynabs-check crosscheck`: the same question to other people's solvers.
 
-use super::solve::{LimitArguments, properties};
+use super::solve::LimitArguments;
 use crate::crosscheck_table::table;
-use crate::model_source::load;
+use crate::model_source::{LoadedModel, load};
+use crate::questions::QuestionArguments;
 use crate::{Bars, CliError, print, warn};
 use clap::{Args, ValueEnum};
 use dynabs::run::NATIVE_MODEL;
@@ -10,7 +11,10 @@ use imdp::engines::{
     Agreement, CrossCheckOptions, Engine, EngineMissing, Finding, Prism, RunLimits, Storm, Subject,
     cross_check, raised,
 };
+use imdp::evaluation::direct;
+use imdp::formats::prism::check_names;
 use imdp::model::available_memory;
+use imdp::property::{Inquiry, Property};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -28,9 +32,8 @@ pub struct CrosscheckArguments {
     #[arg(long, value_enum, default_value_t = With::All)]
     with: With,
 
-    /// A property in PRISM's syntax, or a .props file; repeatable. Default: the .props file of the model.
-    #[arg(short, long = "property", value_name = "PROPERTY")]
-    properties: Vec<String>,
+    #[command(flatten)]
+    questions: QuestionArguments,
 
     /// PRISM's program. Default: $PRISM, or prism in PATH.
     #[arg(long, value_name = "PATH")]
@@ -98,11 +101,13 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     let Engines { found, missing } = find_engines(arguments)?;
     let bars = Arc::new(Bars::new(arguments.quiet));
     let loaded = load(&arguments.path, false, &bars)?;
-    let properties = properties(&arguments.properties, &loaded.properties)?;
+    let properties = properties(&arguments.questions, &loaded)?;
     let digests = loaded.digests()?;
     let failure = |error| CliError::Failure(format!("{}: {error}", arguments.path.display()));
     let raised = raised(&loaded.model).map_err(failure)?;
-    let files = explicit_files(&arguments.path, raised.is_some());
+    // Files that only we read are written again for the engines.
+    let as_is = check_names(&loaded.model).is_ok() && !loaded.has_own_layout;
+    let files = explicit_files(&arguments.path, raised.is_some()).filter(|_| as_is);
     let subject = Subject { model: &loaded.model, raised: raised.as_ref(), files: files.as_ref() };
     say(arguments, &loaded.warnings, "warning: ");
     say(arguments, &missing.iter().map(ToString::to_string).collect::<Vec<_>>(), "missing: ");
@@ -134,6 +139,28 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
         print(&table(&findings))?;
     }
     Ok(exit_code(&findings, !missing.is_empty()))
+}
+
+/// The properties that engines can be asked: those of a single probability. Others are passed over with a word.
+fn properties(questions: &QuestionArguments, loaded: &LoadedModel) -> Result<Vec<Property>, CliError> {
+    let asked = questions.read(loaded)?;
+    let (mut properties, mut problems) = (vec![], vec![]);
+    for question in &asked {
+        match (&question.entry.inquiry, question.problem()) {
+            (Ok(Inquiry::Probability(property)), _) => {
+                properties.push(direct(property.clone(), &loaded.model, questions.nature()));
+            }
+            (Ok(Inquiry::Compound(compound)), _) => problems.push(format!(
+                "{compound}: found more than one probability of F, G, U or X, which engines are not asked"
+            )),
+            (Err(_), problem) => problems.extend(problem),
+        }
+    }
+    if properties.is_empty() {
+        return Err(CliError::Input(problems.join("\nerror: ")));
+    }
+    problems.iter().for_each(|problem| warn(&format!("error: {problem}\n")));
+    Ok(properties)
 }
 
 fn say(arguments: &CrosscheckArguments, lines: &[String], head: &str) {

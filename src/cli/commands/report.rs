@@ -5,7 +5,6 @@ use crate::{Bars, CliError, print, warn};
 use clap::Args;
 use dynabs::report::{CrossCheckError, CrossChecks, Material, MaterialOptions, page, pictures};
 use imdp::files::Outputs;
-use imdp::solver::{AnswerError, SolverOptions};
 use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
@@ -84,10 +83,7 @@ pub fn run(arguments: &ReportArguments) -> Result<ExitCode, CliError> {
         times,
         cross_checks,
     };
-    let solver = SolverOptions { interrupt: Some(bars.interrupt()), ..SolverOptions::default() };
-    let failure = |error: AnswerError| CliError::Failure(error.to_string());
-    let material = Material::new(&run, &answer, &controller, options, &solver, &*bars);
-    let material = material.map_err(failure)?;
+    let material = Material::new(&run, &answer, &controller, options, &*bars);
     if bars.interrupt().load(Ordering::Relaxed) {
         return Err(CliError::Interrupted);
     }

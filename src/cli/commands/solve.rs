@@ -1,18 +1,20 @@
 //! `dynabs-check solve`: properties of a model.
 
-use crate::exports::{write_cell_policy, write_cell_values, write_policy, write_values};
+use crate::exports::{write_cell_policy, write_cell_values, write_evaluated, write_policy, write_values};
 use crate::input_run_source::SolvedInputs;
 use crate::input_summary::InputResult;
 use crate::model_source::{LoadedModel, load};
+use crate::questions::{Asked, QuestionArguments};
 use crate::results::{PropertyResult, exit_code, table};
 use crate::{Bars, CliError, print, warn};
 use clap::Args;
 use dynabs::run::InputRun;
 use imdp::certificate;
-use imdp::files::{self, Outputs};
+use imdp::evaluation::{Evaluation, direct};
+use imdp::files::Outputs;
 use imdp::model::IntervalMdp;
 use imdp::progress::Progress;
-use imdp::property::{Property, parse_properties, parse_property};
+use imdp::property::{Inquiry, Property};
 use imdp::solver::{Answer, SolverOptions};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -23,12 +25,12 @@ use std::time::{Duration, Instant};
 /// What to solve and how.
 #[derive(Clone, Debug, Args)]
 pub struct SolveArguments {
-    /// A directory written by dynabs-compile, a .tra file with .sta and .lab beside it, or a .drn, .umb or .dynabs file.
+    /// A directory written by dynabs-compile, or a model: .tra (with .sta, .lab, .srew, .trew beside it), `m.tra,sta,lab`,
+    /// .pexp, .drn, .umb, .dynabs, .txt of bmdp-tool, .nc of IntervalMDP.jl; compressed by gzip or xz or not.
     path: PathBuf,
 
-    /// A property in PRISM's syntax, or a .props file; repeatable. Default: the .props file of the model.
-    #[arg(short, long = "property", value_name = "PROPERTY")]
-    properties: Vec<String>,
+    #[command(flatten)]
+    questions: QuestionArguments,
 
     /// Read model.tra of a directory instead of its native file.
     #[arg(long)]
@@ -91,16 +93,16 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
 pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
     let start = Instant::now();
-    if InputRun::is_in(&arguments.path) && !arguments.explicit && arguments.properties.is_empty() {
+    if InputRun::is_in(&arguments.path) && !arguments.explicit && arguments.questions.is_empty() {
         return solve_inputs(arguments, &bars);
     }
     let loaded = load(&arguments.path, arguments.explicit, &bars)?;
     let reading = start.elapsed();
-    let properties = properties(&arguments.properties, &loaded.properties)?;
+    let questions = arguments.questions.read(&loaded)?;
     loaded.require_unchanged()?;
     let outputs = [&arguments.values, &arguments.policy, &arguments.certificate];
-    if outputs.into_iter().any(Option::is_some) && properties.len() != 1 {
-        let found = properties.len();
+    if outputs.into_iter().any(Option::is_some) && questions.len() != 1 {
+        let found = questions.len();
         return Err(CliError::Input(format!(
             "--values, --policy, --certificate: found {found} properties; expected one, chosen by -p"
         )));
@@ -108,15 +110,22 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     if !arguments.quiet {
         loaded.warnings.iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
     }
-    let wanted = Wanted { policy: arguments.policy.is_some(), evidence: arguments.certificate.is_some() };
-    let mut results = Vec::with_capacity(properties.len());
+    let mut results = Vec::with_capacity(questions.len());
     bars.catch_interrupts();
-    for property in &properties {
-        let (answer, mut result) = answer(&loaded.model, property, &arguments.limits, wanted, &bars)?;
-        let claim = loaded.claim(property, [answer.lower, answer.upper]);
-        result.guarantee = claim.map_err(|error| CliError::Input(format!("{property}: {error}")))?;
-        write_files(arguments, &loaded, property, answer)?;
-        results.push(result);
+    for question in &questions {
+        let outcome = match question.problem() {
+            Some(problem) => Err(CliError::Input(problem)),
+            None => solve(arguments, &loaded, question, &bars),
+        };
+        match outcome {
+            Ok(result) => results.push(result),
+            // One that cannot be answered does not keep the others from it.
+            Err(CliError::Input(problem)) if questions.len() > 1 => {
+                warn(&format!("error: {problem}\n"));
+                results.push(PropertyResult::failed(&question.entry.text, problem));
+            }
+            Err(error) => return Err(error),
+        }
     }
     if arguments.json {
         print(&format!("{:#}\n", report(&loaded.model, &results, &loaded.warnings, reading)))?;
@@ -125,6 +134,72 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
         warn(&format!("times: reading {reading:.1?}, solving {:.1?}\n", start.elapsed() - reading));
     }
     Ok(exit_code(&results))
+}
+
+/// Answers one property and writes what was asked for about it.
+fn solve(
+    arguments: &SolveArguments,
+    loaded: &LoadedModel,
+    question: &Asked,
+    bars: &Bars,
+) -> Result<PropertyResult, CliError> {
+    let wanted = Wanted { policy: arguments.policy.is_some(), evidence: arguments.certificate.is_some() };
+    let nature = arguments.questions.nature();
+    match &question.entry.inquiry {
+        Ok(Inquiry::Probability(property)) => {
+            let property = direct(property.clone(), &loaded.model, nature);
+            let (answer, mut result) = answer(&loaded.model, &property, &arguments.limits, wanted, bars)?;
+            let claim = loaded.claim(&property, [answer.lower, answer.upper]);
+            result.guarantee = claim.map_err(|error| CliError::Input(format!("{property}: {error}")))?;
+            write_files(arguments, loaded, &property, answer)?;
+            Ok(result)
+        }
+        Ok(Inquiry::Compound(compound)) => {
+            if arguments.certificate.is_some() {
+                return Err(CliError::Input(format!(
+                    "--certificate: found {compound}; expected a property of one probability of F, G, U or X, perhaps compared \
+                     with a threshold"
+                )));
+            }
+            let start = Instant::now();
+            let evaluation = arguments.limits.with_options(bars, |options| {
+                let options = SolverOptions { policy: wanted.policy, ..*options };
+                Evaluation::new(&loaded.model, compound, nature, &options)
+            });
+            let evaluation = evaluation.map_err(|error| CliError::Input(format!("{compound}: {error}")))?;
+            write_evaluation(arguments, loaded, &evaluation)?;
+            let mut result =
+                PropertyResult::of_evaluation(compound, &evaluation, &loaded.model, start.elapsed());
+            result.guarantee = loaded.no_claim();
+            Ok(result)
+        }
+        Err(error) => Err(CliError::Input(error.to_string())),
+    }
+}
+
+/// Writes what was asked for about an expression.
+fn write_evaluation(
+    arguments: &SolveArguments,
+    loaded: &LoadedModel,
+    evaluation: &Evaluation,
+) -> Result<(), CliError> {
+    let mut files = Outputs::default();
+    if let Some(path) = &arguments.values {
+        let written = files.write(path, |out| write_evaluated(&loaded.model, evaluation, out));
+        written.map_err(|error| CliError::writing(path, &error))?;
+    }
+    if let Some(path) = &arguments.policy {
+        let Some(policy) = &evaluation.policy else {
+            return Err(CliError::Input(
+                "--policy: found an expression whose policy needs a memory or is none; expected a single operator P of F, G, U \
+                 or X, or R"
+                    .to_owned(),
+            ));
+        };
+        let written = files.write(path, |out| write_policy(&loaded.model, policy, out));
+        written.map_err(|error| CliError::writing(path, &error))?;
+    }
+    files.commit().map_err(|error| CliError::Failure(error.to_string()))
 }
 
 /// The task of a run whose actions are inputs, on the lattice itself.
@@ -194,14 +269,14 @@ fn write_files(
 }
 
 /// What is wanted of an answer besides the values.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Wanted {
-    pub(super) policy: bool,
-    pub(super) evidence: bool,
+#[derive(Clone, Copy)]
+struct Wanted {
+    policy: bool,
+    evidence: bool,
 }
 
 /// Answers one property, with the current gap on display.
-pub(super) fn answer(
+fn answer(
     model: &IntervalMdp,
     property: &Property,
     limits: &LimitArguments,
@@ -217,7 +292,7 @@ pub(super) fn answer(
         )
     });
     let answer = answer.map_err(|error| CliError::Input(format!("{property}: {error}")))?;
-    let result = PropertyResult::new(property, &answer, start.elapsed());
+    let result = PropertyResult::new(property, &answer, model, start.elapsed());
     Ok((answer, result))
 }
 
@@ -237,8 +312,7 @@ impl LimitArguments {
             time_limit: self.time_limit.map(Duration::from_secs_f64),
             interrupt: Some(bars.interrupt()),
             progress: Some(&progress),
-            policy: false,
-            evidence: false,
+            ..SolverOptions::default()
         });
         bars.finish();
         result
@@ -249,41 +323,6 @@ impl Default for LimitArguments {
     fn default() -> Self {
         Self { epsilon: SolverOptions::default().epsilon, max_iterations: None, time_limit: None }
     }
-}
-
-/// The properties given by `-p`, or those of the file beside the model.
-pub(super) fn properties(given: &[String], beside: &Path) -> Result<Vec<Property>, CliError> {
-    if given.is_empty() {
-        if !beside.exists() {
-            return Err(CliError::Input(format!(
-                "{}: found no such file; expected properties there or with -p, for example -p 'Pmaxmin=? [ F \"goal\" ]'",
-                beside.display()
-            )));
-        }
-        return read_properties(beside);
-    }
-    let mut properties = Vec::new();
-    for text in given {
-        if Path::new(text).extension().is_some_and(|extension| extension == "props") {
-            properties.extend(read_properties(Path::new(text))?);
-        } else {
-            properties.push(parse_property(text).map_err(|error| CliError::Input(format!("-p: {error}")))?);
-        }
-    }
-    Ok(properties)
-}
-
-fn read_properties(path: &Path) -> Result<Vec<Property>, CliError> {
-    let shown = path.display();
-    let text = files::read_text(path).map_err(|error| match files::is_fault_of_input(&error) {
-        true => CliError::Input(format!("{shown}: {error}; expected a file of properties")),
-        false => CliError::reading(path, &error),
-    })?;
-    let properties = parse_properties(&text).map_err(|error| CliError::Input(format!("{shown}: {error}")))?;
-    if properties.is_empty() {
-        return Err(CliError::Input(format!("{shown}: found no property; expected at least one")));
-    }
-    Ok(properties)
 }
 
 fn report(model: &IntervalMdp, results: &[PropertyResult], warnings: &[String], reading: Duration) -> Value {

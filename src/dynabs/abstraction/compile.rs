@@ -1,13 +1,14 @@
 //! The pipeline from problem to interval MDP.
 
+use super::base::{Base, Intervals};
 use super::enabled::EnabledActions;
-use super::landings::Placements;
 use super::outcomes::Outcomes;
 use super::pac::PacRows;
 use super::states::{FAILED, REACHED, StateSpace, labels};
 use super::steering::Steering;
 use super::targets::Targets;
 use super::{AbstractionError, Footprint, reference};
+use crate::Warning;
 use crate::guarantee::{Event, Evidence, Guarantee};
 use crate::partition::{CellId, CellKind, Grid};
 use crate::problem::{Probabilities, Problem};
@@ -16,7 +17,6 @@ use imdp::model::{
     ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, ModelKind, Parts, RowRange, Rows, StateId,
     StateSet,
 };
-use imdp::numeric::Rational;
 use imdp::progress::Progress;
 use imdp::property::{PathFormula, Property, Resolution, StateFormula, Threshold, ThresholdComparison};
 use imdp::solver::{Answer, SolverOptions};
@@ -42,7 +42,7 @@ pub struct Abstraction {
     /// How long each phase took.
     pub phases: Vec<(&'static str, Duration)>,
     /// What the user should know.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }
 
 /// How long to look for values by which windows are chosen: a better choice is not worth more.
@@ -76,18 +76,16 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
     footprint.check()?;
     clock.lap("memory");
 
-    let enabled = steering.enabled(problem, progress)?;
+    let Base { placements, intervals, enabling } = Base::new(problem, &steering, progress)?;
     clock.lap("enabled actions");
 
-    let is_pac = matches!(problem.probabilities(), Probabilities::Pac { .. });
     let states = state_space(problem);
-    let Steering { targets, law, extent, .. } = steering;
-    let choices = choices(problem, &states, &enabled);
+    let targets = &steering.targets;
+    let choices = choices(problem, &states, &enabling.actions);
     let blocked = states.select(|state| is_blocked(problem, &states, &choices, state));
-    let tolerance = is_pac.then(|| law.steering_error(&extent));
-    let placements = Placements::new(&problem.noise().samples, grid, &targets, tolerance);
     clock.lap("choices");
 
+    let is_pac = matches!(intervals, Intervals::Pac(_));
     let (reached, failed) = outcome_states(problem, &states, &blocked, is_pac);
     let property = reach_avoid(problem);
     let model_of = |rows: Rows| -> Result<IntervalMdp, ImdpError> {
@@ -101,35 +99,33 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
             variables: states.variables(grid),
         })
     };
-    let (rows, evidence) = match problem.probabilities() {
-        Probabilities::Pac { beta, sweep, discard } => {
-            let is_lost = |cell| blocked.contains(states.of_cell(cell) as usize);
-            let outcomes = Outcomes::new(problem.labels(), is_lost);
-            let own = beta / Rational::from_integer((*sweep).into());
-            let pac =
-                PacRows::new(problem, (own, *discard as usize), &targets, placements, &states, &outcomes)?;
+    let contradiction = intervals.contradiction();
+    let (rows, evidence) = match intervals {
+        Intervals::Reference(beta_per_interval) => {
+            let rows = reference::build(problem, beta_per_interval, targets, placements, &states, progress)?;
+            clock.lap("rows");
+            (rows, Evidence::Published { beta_per_interval })
+        }
+        Intervals::Pac(prepared) => {
+            let outcomes = Outcomes::new(problem.labels(), |cell| enabling.is_idle(cell));
+            let pac = PacRows::new(problem, *prepared, targets, placements, &states, &outcomes)?;
             let rows = pac.rows(progress);
             clock.lap("rows");
             let rows = pac.better_rows(&scout(&model_of(rows)?, &property)?, progress);
             clock.lap("choice of windows");
-            (rows, Evidence::Samples(pac.evidence(beta, *sweep)))
-        }
-        Probabilities::Reference { beta_per_interval } => {
-            let rows =
-                reference::build(problem, *beta_per_interval, &targets, placements, &states, progress)?;
-            clock.lap("rows");
-            (rows, Evidence::Published { beta_per_interval: *beta_per_interval })
+            (rows, Evidence::Samples(pac.evidence()))
         }
     };
-    let warnings = warnings(problem, blocked.count_ones(..));
+    let mut warnings = warnings(problem, blocked.count_ones(..));
+    warnings.extend(contradiction);
     let model = model_of(rows)?;
     clock.lap("model");
     Ok(Abstraction {
         model,
         property,
         state_of_cell: state_of_cell(grid, &states),
-        targets,
-        law,
+        targets: steering.targets,
+        law: steering.law,
         guarantee: Guarantee { event: Event::of(problem), evidence },
         footprint,
         phases: clock.phases,
@@ -147,8 +143,8 @@ fn scout(model: &IntervalMdp, property: &Property) -> Result<Vec<f64>, Abstracti
 impl Abstraction {
     /// The abstraction of `problem` whose model was compiled before, `model`.
     ///
-    /// Samples are not looked at again; the choices of the model are compared with the actions that the law
-    /// allows, so that whatever a policy chooses is safe to apply.
+    /// Samples are not counted again; the choices of the model are compared with the actions that are enabled, so that
+    /// whatever a policy chooses is safe to apply.
     ///
     /// # Errors
     /// [`AbstractionError::Foreign`] if the model or what is promised of it is another problem's.
@@ -162,11 +158,12 @@ impl Abstraction {
         let steering = Steering::new(problem)?;
         let footprint = Footprint::new(problem, &steering);
         footprint.check()?;
+        let enabled = Base::new(problem, &steering, progress)?.enabling.actions;
         let states = state_space(problem);
         let same = guarantee.event == Event::of(problem)
             && model.num_states() == states.len()
             && model.rows().len() == steering.targets.len()
-            && *model.choices() == choices(problem, &states, &steering.enabled(problem, progress)?);
+            && *model.choices() == choices(problem, &states, &enabled);
         if !same {
             return Err(AbstractionError::Foreign);
         }
@@ -267,18 +264,16 @@ fn reach_avoid(problem: &Problem) -> Property {
     }
 }
 
-fn warnings(problem: &Problem, blocked: usize) -> Vec<String> {
+fn warnings(problem: &Problem, blocked: usize) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if blocked > 0 {
         let ordinary = problem.labels().count(CellKind::Ordinary);
-        warnings.push(format!(
-            "in {blocked} of {ordinary} ordinary cells no action is enabled (label \"deadlock\"): their value is 0"
-        ));
+        warnings.push(Warning::NothingEnabled { cells: blocked, ordinary });
     }
     if let Some(cell) = problem.initial_cell()
         && problem.labels().kind(cell) == CellKind::Unsafe
     {
-        warnings.push("/initial_state: the cell of the initial state is unsafe".to_owned());
+        warnings.push(Warning::UnsafeStart);
     }
     warnings
 }

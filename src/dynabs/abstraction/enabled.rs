@@ -61,14 +61,21 @@ pub fn enabled_actions(
             found
         })
         .collect();
-    let mut all = EnabledActions::default();
-    all.ranges.reserve_exact(parts.iter().map(|part| part.ranges.len()).sum());
-    all.ranges_per_cell.reserve_exact(cells.len());
-    for part in parts {
-        all.ranges_per_cell.extend(part.ranges_per_cell);
-        all.ranges.extend(part.ranges);
+    EnabledActions::concatenated(parts)
+}
+
+impl EnabledActions {
+    /// The actions of the cells of all `parts`, in order.
+    pub(super) fn concatenated(parts: Vec<Self>) -> Self {
+        let mut all = Self::default();
+        all.ranges.reserve_exact(parts.iter().map(|part| part.ranges.len()).sum());
+        all.ranges_per_cell.reserve_exact(parts.iter().map(|part| part.ranges_per_cell.len()).sum());
+        for part in parts {
+            all.ranges_per_cell.extend(part.ranges_per_cell);
+            all.ranges.extend(part.ranges);
+        }
+        all
     }
-    all
 }
 
 /// The scan over target points, prepared for one set of constraints.
@@ -126,6 +133,9 @@ impl<'a> Scan<'a> {
             let room = slack[i] - self.least_after[k][i];
             // Monotone in x even in floating point, so the feasible indices are a range.
             let fits = |index: usize| alpha * axis[index] <= room;
+            if room.is_nan() {
+                return None;
+            }
             if alpha == 0.0 {
                 if room < 0.0 {
                     return None;

@@ -13,6 +13,12 @@ pub enum AbstractionError {
         /// Whether there is a lower layer, which may be to blame.
         stabilized: bool,
     },
+    /// Every action may meet something unsafe at a step in between.
+    #[error("in every cell every action may meet something unsafe between grouped instants")]
+    NothingClear {
+        /// How many steps are grouped.
+        group_steps: usize,
+    },
     /// The samples prove too little.
     #[error("{samples} samples leave {unseen} of the probability unseen")]
     TooFewSamples {

@@ -101,7 +101,7 @@ fn ranges(problem: &Problem, steering: &Steering) -> u64 {
         let next = (probed + PROBED_AT_ONCE).min(cells);
         let ordinary = |&cell: &CellId| problem.labels().kind(cell) == CellKind::Ordinary;
         let chosen: Vec<CellId> = (probed..next).map(cell).filter(ordinary).collect();
-        found += steering.ranges(problem, &chosen) as u64;
+        found += steering.enabled(problem, &chosen, &()).ranges.len() as u64;
         probed = next;
     }
     // A quarter more for what the mean may miss.
@@ -110,9 +110,10 @@ fn ranges(problem: &Problem, steering: &Steering) -> u64 {
 
 /// How many entries a row has at most: the cells that a box around all samples meets.
 fn row_length(problem: &Problem) -> u64 {
-    let magnitudes = problem.noise().samples.magnitudes();
-    let along = magnitudes.iter().zip(problem.grid().axes()).map(|(magnitude, axis)| {
-        let cells = (2.0 * magnitude / to_f64(axis.width())).ceil() + 2.0;
+    let samples = &problem.noise().samples;
+    let along = problem.grid().axes().iter().enumerate().map(|(j, axis)| {
+        let farthest = samples.iter().map(|sample| sample[j].abs()).fold(0.0, f64::max);
+        let cells = (2.0 * farthest / to_f64(axis.width())).ceil() + 2.0;
         cells.min(f64::from(axis.cells())) as u64
     });
     along.fold(1, u64::saturating_mul)

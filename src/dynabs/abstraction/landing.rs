@@ -2,6 +2,7 @@
 
 use super::outcomes::{Outcome, Outcomes};
 use super::placement::Placement;
+use super::windows::WINDOWS;
 use crate::noise::NoiseSamples;
 use crate::partition::{CellId, Grid};
 use std::collections::BTreeMap;
@@ -20,8 +21,8 @@ pub struct Spread {
 /// How many samples lie for certain, and how many possibly, in a set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Count {
-    /// Samples that are in the set whatever the rounding.
-    pub certain: u32,
+    /// Per window, the samples inside it that are in the set whatever the rounding; without windows, all such samples.
+    pub certain: [u32; WINDOWS],
     /// Samples that may be in the set.
     pub possible: u32,
 }
@@ -29,8 +30,8 @@ pub struct Count {
 /// The samples of `d + η` by the cells in which they land, relative to an origin cell.
 #[derive(Clone, Debug)]
 pub struct Landing {
-    /// Distinct spreads with their numbers of samples, ascending.
-    groups: Vec<(Spread, u32)>,
+    /// Distinct spreads with their samples, ascending: those inside of each window, and all.
+    groups: Vec<(Spread, Count)>,
     /// The cells that `counts` is about: all that some sample may lie in, and more if asked for.
     table: Spread,
     /// The counts of every cell of the table, row-major.
@@ -48,10 +49,20 @@ pub struct RegionCounts {
 
 impl Landing {
     /// Where the samples land; the table of counts includes the cells of `cover`.
-    pub fn new(samples: &NoiseSamples, placement: &Placement, cover: Option<&Spread>) -> Self {
-        let mut groups: BTreeMap<Spread, u32> = BTreeMap::new();
-        for sample in samples.iter() {
-            *groups.entry(placement.spread(sample)).or_default() += 1;
+    ///
+    /// `depths` says of every sample how many of the windows it is inside of, the first ones; without, it is in all.
+    pub fn new(
+        samples: &NoiseSamples,
+        placement: &Placement,
+        cover: Option<&Spread>,
+        depths: Option<&[u8]>,
+    ) -> Self {
+        let mut groups: BTreeMap<Spread, Count> = BTreeMap::new();
+        for (i, sample) in samples.measured().enumerate() {
+            let count = groups.entry(placement.spread(sample)).or_default();
+            let depth = depths.map_or(WINDOWS, |depths| usize::from(depths[i]));
+            count.certain[..depth].iter_mut().for_each(|certain| *certain += 1);
+            count.possible += 1;
         }
         let groups: Vec<_> = groups.into_iter().collect();
         let first = cover.or(groups.first().map(|(spread, _)| spread));
@@ -59,12 +70,8 @@ impl Landing {
         groups.iter().for_each(|(spread, _)| table.include(spread));
         let mut counts = vec![Count::default(); table.volume()];
         for (spread, number) in &groups {
-            let certain = if spread.is_single() { *number } else { 0 };
-            spread.for_each(|cell| {
-                let count = &mut counts[table.position(cell)];
-                count.certain += certain;
-                count.possible += number;
-            });
+            let is_certain = spread.is_single();
+            spread.for_each(|cell| counts[table.position(cell)].add(number, is_certain, true));
         }
         Self { groups, table, counts }
     }
@@ -77,11 +84,6 @@ impl Landing {
     /// The counts of the cells of the table, row-major.
     pub fn counts(&self) -> &[Count] {
         &self.counts
-    }
-
-    /// Distinct spreads with their numbers of samples, ascending.
-    pub fn groups(&self) -> &[(Spread, u32)] {
-        &self.groups
     }
 
     /// How many samples land in goal cells, and how many in lost cells or outside, with origin `origin`.
@@ -97,14 +99,22 @@ impl Landing {
                     Some(Outcome::Lost) | None => lost += 1,
                 }
             });
-            let add = |count: &mut Count, hits: usize| {
-                count.certain += if hits == cells { *number } else { 0 };
-                count.possible += if hits > 0 { *number } else { 0 };
-            };
-            add(&mut counts.goal, goal);
-            add(&mut counts.lost, lost);
+            counts.goal.add(number, goal == cells, goal > 0);
+            counts.lost.add(number, lost == cells, lost > 0);
         }
         counts
+    }
+}
+
+impl Count {
+    /// Adds samples that are in the set for certain, or possibly, or not.
+    fn add(&mut self, samples: &Self, is_certain: bool, is_possible: bool) {
+        if is_certain {
+            self.certain.iter_mut().zip(samples.certain).for_each(|(own, more)| *own += more);
+        }
+        if is_possible {
+            self.possible += samples.possible;
+        }
     }
 }
 
@@ -178,7 +188,7 @@ mod tests {
     ) -> Landing {
         let tolerance = tolerance.map(|t| [t]);
         let tolerance = tolerance.as_ref().map(|t| t.as_slice());
-        Landing::new(samples, &Placement::of_offsets(samples, grid, alignment, &[9], tolerance), None)
+        Landing::new(samples, &Placement::of_offsets(grid, alignment, &[9], tolerance), None, None)
     }
 
     #[test]
@@ -187,9 +197,8 @@ mod tests {
         let samples = NoiseSamples::new(1, vec![0.0, 0.4, -0.4, 0.6, -1.4, 99.0]);
         let landing = offsets(&samples, &grid, &alignment, Some(1e-12));
         assert_eq!(landing.table(), &Spread { lower: vec![-1], upper: vec![10] });
-        assert_eq!(landing.counts()[0].certain, 1);
-        assert_eq!(landing.counts()[1].certain, 3);
-        assert_eq!(landing.counts()[2].certain, 1);
+        let certain = |i: usize| landing.counts()[i].certain;
+        assert_eq!([certain(0), certain(1), certain(2)], [[1; WINDOWS], [3; WINDOWS], [1; WINDOWS]]);
     }
 
     #[test]
@@ -197,11 +206,11 @@ mod tests {
         let (grid, alignment) = line(10);
         let samples = NoiseSamples::new(1, vec![0.5, 0.5 + 1e-15, 0.1]);
         let landing = offsets(&samples, &grid, &alignment, Some(1e-14));
-        assert_eq!(landing.counts()[0], Count { certain: 1, possible: 3 });
-        assert_eq!(landing.counts()[1], Count { certain: 0, possible: 2 });
+        assert_eq!(landing.counts()[0], Count { certain: [1; WINDOWS], possible: 3 });
+        assert_eq!(landing.counts()[1], Count { certain: [0; WINDOWS], possible: 2 });
         // Taken at its word, the face belongs to the upper cell.
         let landing = offsets(&samples, &grid, &alignment, None);
-        assert_eq!(landing.counts()[1], Count { certain: 2, possible: 2 });
+        assert_eq!(landing.counts()[1], Count { certain: [2; WINDOWS], possible: 2 });
     }
 
     #[test]
@@ -209,9 +218,19 @@ mod tests {
         let (grid, alignment) = line(10);
         let samples = NoiseSamples::new(1, vec![0.0, 0.4, -0.4, 0.6, -1.4, 3.3]);
         let by_offset = offsets(&samples, &grid, &alignment, Some(0.0));
-        let placement = Placement::of_point(&samples, &grid, &[4.5], Some(&[0.0]));
-        let by_point = Landing::new(&samples, &placement, None);
+        let placement = Placement::of_point(&grid, &[4.5], Some(&[0.0]));
+        let by_point = Landing::new(&samples, &placement, None, None);
         assert_eq!(by_offset.counts(), by_point.counts());
         assert_eq!(by_point.table().lower[0], by_offset.table().lower[0] + 4);
+    }
+
+    #[test]
+    fn samples_count_for_the_windows_that_they_are_in() {
+        let (grid, alignment) = line(10);
+        let samples = NoiseSamples::new(1, vec![0.0, 0.1, 0.2, 1.0]);
+        let placement = Placement::of_offsets(&grid, &alignment, &[9], Some(&[0.0]));
+        let landing = Landing::new(&samples, &placement, None, Some(&[4, 1, 0, 2]));
+        assert_eq!(landing.counts()[0], Count { certain: [2, 1, 1, 1], possible: 3 });
+        assert_eq!(landing.counts()[1], Count { certain: [1, 1, 0, 0], possible: 1 });
     }
 }

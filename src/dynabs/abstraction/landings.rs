@@ -15,7 +15,7 @@ pub(super) enum Placements<'a> {
     /// All targets sit alike in their cells: coordinates count from the cell of the target.
     Shared { placement: Placement, alignment: &'a [Alignment], last_cells: Vec<u32> },
     /// Targets anywhere: coordinates are those of the grid.
-    PerTarget { samples: &'a NoiseSamples, tolerance: Option<Vec<f64>> },
+    PerTarget { tolerance: Option<Vec<f64>> },
 }
 
 /// Where the samples of every action land.
@@ -24,6 +24,8 @@ pub(super) struct Landings<'a> {
     placements: Placements<'a>,
     /// The cells that rows are to list, if more than those with samples.
     windows: Option<Windows>,
+    /// Whether samples count for certain only inside of windows.
+    inside_only: bool,
     /// The landing of all actions where coordinates count from the target.
     shared: Option<Landing>,
     /// The cells of the windows in these coordinates.
@@ -32,18 +34,13 @@ pub(super) struct Landings<'a> {
 
 impl<'a> Placements<'a> {
     /// With `tolerance`, samples near a face may be on either side of it.
-    pub(super) fn new(
-        samples: &'a NoiseSamples,
-        grid: &Grid,
-        targets: &'a Targets,
-        tolerance: Option<Vec<f64>>,
-    ) -> Self {
+    pub(super) fn new(grid: &Grid, targets: &'a Targets, tolerance: Option<Vec<f64>>) -> Self {
         let Some((alignment, axes)) = targets.alignment().zip(targets.axes()) else {
-            return Self::PerTarget { samples, tolerance };
+            return Self::PerTarget { tolerance };
         };
         let last = |(a, axis): (&Alignment, &Vec<f64>)| a.first_cell + a.stride * (axis.len() as u32 - 1);
         let last_cells: Vec<u32> = alignment.iter().zip(axes).map(last).collect();
-        let placement = Placement::of_offsets(samples, grid, alignment, &last_cells, tolerance.as_deref());
+        let placement = Placement::of_offsets(grid, alignment, &last_cells, tolerance.as_deref());
         Self::Shared { placement, alignment, last_cells }
     }
 
@@ -70,19 +67,51 @@ impl<'a> Placements<'a> {
 }
 
 impl<'a> Landings<'a> {
-    /// The landings of `samples`; the tables of counts include the cells of the windows.
-    pub(super) fn new(
+    /// The landings of `samples`, as they are.
+    pub(super) fn new(samples: &'a NoiseSamples, placements: Placements<'a>) -> Self {
+        let landings = Self {
+            samples,
+            placements,
+            windows: None,
+            inside_only: false,
+            shared: None,
+            shared_windows: vec![],
+        };
+        landings.share()
+    }
+
+    /// The landings of `samples` with tables of counts that include the cells of the windows; with `inside_only` nothing
+    /// outside of a window counts for certain.
+    pub(super) fn in_windows(
         samples: &'a NoiseSamples,
         placements: Placements<'a>,
-        windows: Option<Windows>,
+        windows: Windows,
+        inside_only: bool,
     ) -> Self {
-        let mut landings = Self { samples, placements, windows, shared: None, shared_windows: vec![] };
-        if let Some(placement) = landings.placements.shared() {
-            let windows = landings.cells_of_windows(placement);
-            landings.shared = Some(Landing::new(samples, placement, windows.first()));
-            landings.shared_windows = windows;
+        let landings = Self {
+            samples,
+            placements,
+            windows: Some(windows),
+            inside_only,
+            shared: None,
+            shared_windows: vec![],
+        };
+        landings.share()
+    }
+
+    /// Counts once for all actions, if they can be.
+    fn share(mut self) -> Self {
+        if let Some(placement) = self.placements.shared() {
+            let windows = self.cells_of_windows(placement);
+            self.shared = Some(self.landing(placement, windows.first()));
+            self.shared_windows = windows;
         }
-        landings
+        self
+    }
+
+    fn landing(&self, placement: &Placement, cover: Option<&Spread>) -> Landing {
+        let depths = self.windows.as_ref().filter(|_| self.inside_only).map(Windows::depths);
+        Landing::new(self.samples, placement, cover, depths)
     }
 
     fn cells_of_windows(&self, placement: &Placement) -> Vec<Spread> {
@@ -100,15 +129,15 @@ impl<'a> Landings<'a> {
         origin: &mut [i32],
     ) -> (Cow<'_, Landing>, Cow<'_, [Spread]>) {
         match (&self.placements, &self.shared) {
-            (Placements::Shared { alignment, .. }, Some(landing)) => {
-                targets.cell_coordinates(target, alignment, origin);
+            (Placements::Shared { .. }, Some(landing)) => {
+                targets.cell(target, origin);
                 (Cow::Borrowed(landing), Cow::Borrowed(&self.shared_windows))
             }
             _ => {
                 origin.fill(0);
                 let placement = self.placement(targets, target, grid);
                 let windows = self.cells_of_windows(&placement);
-                let landing = Landing::new(self.samples, &placement, windows.first());
+                let landing = self.landing(&placement, windows.first());
                 (Cow::Owned(landing), Cow::Owned(windows))
             }
         }
@@ -119,24 +148,22 @@ impl<'a> Landings<'a> {
         self.shared.as_ref()
     }
 
-    /// The coordinates of an action's target in its landing.
-    pub(super) fn target_cell(&self, targets: &Targets, target: usize, grid: &Grid) -> Vec<i32> {
-        match self.placements {
-            Placements::Shared { .. } => vec![0; grid.dimension()],
-            Placements::PerTarget { .. } => {
-                let nowhere = vec![0.0; grid.dimension()];
-                self.placement(targets, target, grid).spread(&nowhere).lower
-            }
+    /// The coordinates of an action's target in its landing: whatever the samples.
+    pub(super) fn target_cell(&self, targets: &Targets, target: usize) -> Vec<i32> {
+        let mut cell = vec![0; targets.dimension()];
+        if let Placements::PerTarget { .. } = self.placements {
+            targets.cell(target, &mut cell);
         }
+        cell
     }
 
     fn placement(&self, targets: &Targets, target: usize, grid: &Grid) -> Cow<'_, Placement> {
         match &self.placements {
             Placements::Shared { placement, .. } => Cow::Borrowed(placement),
-            Placements::PerTarget { samples, tolerance } => {
+            Placements::PerTarget { tolerance } => {
                 let mut point = vec![0.0; grid.dimension()];
                 targets.point(target, &mut point);
-                Cow::Owned(Placement::of_point(samples, grid, &point, tolerance.as_deref()))
+                Cow::Owned(Placement::of_point(grid, &point, tolerance.as_deref()))
             }
         }
     }

@@ -5,11 +5,15 @@
 //! the rows are translations of each other, and all of them follow from how often each *offset* from a
 //! target was hit by `d_a + δ_i`.
 
+mod base;
+mod between;
 mod compile;
 mod count_table;
 mod enabled;
+mod enabling;
 mod error;
 mod footprint;
+mod hazards;
 pub mod inputs;
 mod landing;
 mod landings;

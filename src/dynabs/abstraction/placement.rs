@@ -2,7 +2,7 @@
 
 use super::landing::Spread;
 use super::targets::Alignment;
-use crate::noise::NoiseSamples;
+use crate::noise::NoiseSample;
 use crate::partition::Grid;
 use imdp::numeric::{UNIT_ROUNDOFF, to_f64};
 
@@ -20,7 +20,7 @@ struct AxisPlacement {
     shift: f64,
     lowest: i32,
     highest: i32,
-    /// `None` takes the arithmetic at its word.
+    /// How far `d_a + η` can be from its value, apart from the error of `η`; `None` takes the arithmetic at its word.
     tolerance: Option<f64>,
 }
 
@@ -28,11 +28,10 @@ impl Placement {
     /// Coordinates relative to the cell of `d_a`, for targets that all sit alike in their cells.
     ///
     /// With `φ` the target's position in its cell and `w` the width, `δ` moves `⌊δ/w + φ⌋` cells. `tolerance`
-    /// bounds, per dimension, how far the true `d_a + η` can be from its computed value; samples closer to
-    /// a face than that (plus the rounding made here) may be on either side. Coordinates beyond the grid
+    /// bounds, per dimension, how far the state can be from `d_a + η`; samples closer to a face than that and their
+    /// own error (plus the rounding made here) may be on either side. Coordinates beyond the grid
     /// from every target are cut off just outside it.
     pub fn of_offsets(
-        samples: &NoiseSamples,
         grid: &Grid,
         alignment: &[Alignment],
         last_cells: &[u32],
@@ -43,13 +42,13 @@ impl Placement {
             shift: to_f64(&alignment[j].phase),
             lowest: -(last_cells[j] as i32) - 1,
             highest: grid.axes()[j].cells() as i32 - alignment[j].first_cell as i32,
-            tolerance: tolerance.map(|t| t[j] + samples.rounding()[j]),
+            tolerance: tolerance.map(|t| t[j]),
         };
         Self { axes: (0..grid.dimension()).map(axis).collect() }
     }
 
     /// Coordinates in the grid, for one target point anywhere.
-    pub fn of_point(samples: &NoiseSamples, grid: &Grid, point: &[f64], tolerance: Option<&[f64]>) -> Self {
+    pub fn of_point(grid: &Grid, point: &[f64], tolerance: Option<&[f64]>) -> Self {
         let axis = |j: usize| {
             let width = to_f64(grid.axes()[j].width());
             let lower = to_f64(grid.axes()[j].lower());
@@ -59,21 +58,23 @@ impl Placement {
                 shift: (point[j] - lower) / width,
                 lowest: -1,
                 highest: grid.axes()[j].cells() as i32,
-                tolerance: tolerance.map(|t| t[j] + samples.rounding()[j] + offset),
+                tolerance: tolerance.map(|t| t[j] + offset),
             }
         };
         Self { axes: (0..grid.dimension()).map(axis).collect() }
     }
 
     /// The cells in which noise `δ` may put the state.
-    pub fn spread(&self, noise: &[f64]) -> Spread {
-        let (lower, upper) = noise.iter().zip(&self.axes).map(|(&x, axis)| axis.spread(x)).unzip();
+    pub fn spread(&self, noise: NoiseSample<'_>) -> Spread {
+        let along = |(j, axis): (usize, &AxisPlacement)| axis.spread(noise.value(j), noise.error(j));
+        let (lower, upper) = self.axes.iter().enumerate().map(along).unzip();
         Spread { lower, upper }
     }
 
     /// The cells that some noise between `lower` and `upper` may put the state in.
     pub fn spread_of_box(&self, lower: &[f64], upper: &[f64]) -> Spread {
-        Spread { lower: self.spread(lower).lower, upper: self.spread(upper).upper }
+        let spread = |noise| self.spread(NoiseSample::exact(noise));
+        Spread { lower: spread(lower).lower, upper: spread(upper).upper }
     }
 
     /// The noise, in dimension `j`, that it takes at least to move to coordinate `o`: 0 if none.
@@ -93,14 +94,40 @@ impl Placement {
 }
 
 impl AxisPlacement {
-    fn spread(&self, x: f64) -> (i32, i32) {
+    /// The least and the greatest coordinate for noise `x ± error`; all of them if that is no number.
+    fn spread(&self, x: f64, error: f64) -> (i32, i32) {
         let position = x / self.width + self.shift;
         let slack = self.tolerance.map_or(0.0, |tolerance| {
             let rounding = 8.0 * UNIT_ROUNDOFF * ((x / self.width).abs() + self.shift.abs() + 1.0);
-            2.0 * tolerance / self.width + rounding
+            2.0 * (tolerance + error) / self.width + rounding
         });
+        (
+            self.coordinate(position - slack).unwrap_or(self.lowest),
+            self.coordinate(position + slack).unwrap_or(self.highest),
+        )
+    }
+
+    /// The coordinate at a position; none for what is no number, which a cast would take for 0.
+    fn coordinate(&self, position: f64) -> Option<i32> {
         // Casting saturates, so samples beyond any grid stay beyond it.
-        let index = |position: f64| (position.floor() as i32).clamp(self.lowest, self.highest);
-        (index(position - slack), index(position + slack))
+        (!position.is_nan()).then(|| (position.floor() as i32).clamp(self.lowest, self.highest))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_number_may_be_anywhere() {
+        let axis = AxisPlacement { width: 2.0, shift: 0.5, lowest: -3, highest: 4, tolerance: Some(1e-12) };
+        assert_eq!(axis.spread(2.0, 0.0), (1, 1));
+        assert_eq!(axis.spread(3.0, 1e-13), (1, 2));
+        assert_eq!(axis.spread(1e155, 1e139), (4, 4));
+        for (x, error) in
+            [(f64::NAN, 0.0), (f64::INFINITY, f64::INFINITY), (0.0, f64::NAN), (1.0, f64::INFINITY)]
+        {
+            assert_eq!(axis.spread(x, error), (-3, 4), "{x} {error}");
+        }
     }
 }

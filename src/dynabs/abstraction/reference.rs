@@ -28,7 +28,7 @@ pub(super) fn build(
     progress: &dyn Progress,
 ) -> Result<Rows, TooLarge> {
     let grid: &Grid = problem.grid();
-    let landings = Landings::new(&problem.noise().samples, placements, None);
+    let landings = Landings::new(&problem.noise().samples, placements);
     need_of_rows(problem, targets.len() as u64 * landings.row_length(grid) as u64).check()?;
     let intervals = ReferenceIntervals::new(problem.noise().samples.len() as u64, beta_per_interval);
     let inside: Vec<u32> = (0..targets.len())
@@ -39,13 +39,13 @@ pub(super) fn build(
                 let (landing, _) = landings.of(targets, target, grid, origin);
                 let mut inside = 0;
                 let table = landing.table();
-                for_each_cell(table, table, origin, grid, |_, i| inside += landing.counts()[i].certain);
+                for_each_cell(table, table, origin, grid, |_, i| inside += landing.counts()[i].certain[0]);
                 inside
             },
         )
         .collect();
     let of_cells = landings.distinct_counts(targets, grid);
-    let of_cells = CountTable::new(of_cells.iter().map(|count| count.certain), |k| intervals.of_cell(k));
+    let of_cells = CountTable::new(of_cells.iter().map(|count| count.certain[0]), |k| intervals.of_cell(k));
     let of_outside = CountTable::new(inside.iter().copied(), |k| intervals.of_outside(k));
     Ok(super::row_tasks::build_rows(targets.len(), progress, |target, rows| {
         let mut origin = vec![0; grid.dimension()];
@@ -54,7 +54,7 @@ pub(super) fn build(
         rows.push_entry(OUTSIDE, lower, upper);
         let table = landing.table();
         for_each_cell(table, table, &origin, grid, |cell, i| {
-            let hits = landing.counts()[i].certain;
+            let hits = landing.counts()[i].certain[0];
             if hits > 0 {
                 let (lower, upper) = of_cells.get(hits);
                 rows.push_entry(states.of_cell(cell), lower, upper);

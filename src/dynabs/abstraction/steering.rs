@@ -3,7 +3,7 @@
 use super::AbstractionError;
 use super::enabled::{EnabledActions, enabled_actions};
 use super::targets::Targets;
-use crate::partition::{CellId, CellKind};
+use crate::partition::CellId;
 use crate::problem::{Actions, Problem};
 use crate::system::{Extent, FeedbackLaw, SteeringConstraint};
 use imdp::progress::Progress;
@@ -28,26 +28,13 @@ impl Steering {
         Ok(Self { targets, law, extent, constraints })
     }
 
-    /// How many ranges of actions are enabled in some cells.
-    pub(super) fn ranges(&self, problem: &Problem, cells: &[CellId]) -> usize {
-        enabled_actions(problem.grid(), cells, &self.targets, &self.constraints, &()).ranges.len()
-    }
-
-    /// The actions of all ordinary cells, in the order of the cells.
+    /// The actions that the law allows in each of `cells`.
     pub(super) fn enabled(
         &self,
         problem: &Problem,
+        cells: &[CellId],
         progress: &dyn Progress,
-    ) -> Result<EnabledActions, AbstractionError> {
-        let ordinary: Vec<CellId> = (problem.labels().iter())
-            .filter_map(|(cell, kind)| (kind == CellKind::Ordinary).then_some(cell))
-            .collect();
-        progress.start("enabled actions", ordinary.len() as u64);
-        let enabled = enabled_actions(problem.grid(), &ordinary, &self.targets, &self.constraints, progress);
-        progress.finish();
-        if enabled.ranges.is_empty() && !ordinary.is_empty() {
-            return Err(AbstractionError::NothingEnabled { stabilized: problem.stabilizer().is_some() });
-        }
-        Ok(enabled)
+    ) -> EnabledActions {
+        enabled_actions(problem.grid(), cells, &self.targets, &self.constraints, progress)
     }
 }

@@ -1,6 +1,6 @@
 //! The points that actions steer to.
 
-use crate::partition::Grid;
+use crate::partition::{Axis, Grid};
 use crate::problem::TargetPoints;
 use imdp::numeric::{Rational, to_f64};
 use num_traits::ToPrimitive;
@@ -14,10 +14,10 @@ pub struct Targets {
 
 #[derive(Clone, Debug)]
 enum Layout {
-    /// All combinations of coordinates, numbered row-major.
-    Lattice { axes: Vec<Vec<f64>>, alignment: Option<Vec<Alignment>> },
-    /// Any points, one after the other.
-    List(Vec<f64>),
+    /// All combinations of coordinates, numbered row-major, with the cells of the coordinates.
+    Lattice { axes: Vec<Vec<f64>>, cells: Vec<Vec<i32>>, alignment: Option<Vec<Alignment>> },
+    /// Any points, one after the other, and the coordinates of their cells.
+    List { points: Vec<f64>, cells: Vec<i32> },
 }
 
 /// How the targets of one dimension sit in the cells of the partition.
@@ -36,12 +36,21 @@ impl Targets {
     pub fn new(points: &TargetPoints, partition: &Grid) -> Self {
         let lattice = |grid: &Grid| Layout::Lattice {
             axes: grid.axes().iter().map(|axis| axis.centers()).collect(),
+            cells: (grid.axes().iter().zip(partition.axes()))
+                .map(|(own, axis)| (0..own.cells()).map(|i| cell_along(axis, &own.center(i))).collect())
+                .collect(),
             alignment: align(grid, partition),
         };
         let layout = match points {
             TargetPoints::Centers => lattice(partition),
             TargetPoints::Grid(grid) => lattice(grid),
-            TargetPoints::List(points) => Layout::List(points.iter().flatten().map(to_f64).collect()),
+            TargetPoints::List(points) => Layout::List {
+                points: points.iter().flatten().map(to_f64).collect(),
+                cells: (points.iter())
+                    .flat_map(|point| point.iter().zip(partition.axes()))
+                    .map(|(x, axis)| cell_along(axis, x))
+                    .collect(),
+            },
         };
         Self { dimension: partition.dimension(), layout }
     }
@@ -50,7 +59,7 @@ impl Targets {
     pub fn len(&self) -> usize {
         match &self.layout {
             Layout::Lattice { axes, .. } => axes.iter().map(Vec::len).product(),
-            Layout::List(points) => points.len() / self.dimension,
+            Layout::List { points, .. } => points.len() / self.dimension,
         }
     }
 
@@ -68,7 +77,7 @@ impl Targets {
     pub fn axes(&self) -> Option<&[Vec<f64>]> {
         match &self.layout {
             Layout::Lattice { axes, .. } => Some(axes),
-            Layout::List(_) => None,
+            Layout::List { .. } => None,
         }
     }
 
@@ -76,7 +85,7 @@ impl Targets {
     pub fn alignment(&self) -> Option<&[Alignment]> {
         match &self.layout {
             Layout::Lattice { alignment, .. } => alignment.as_deref(),
-            Layout::List(_) => None,
+            Layout::List { .. } => None,
         }
     }
 
@@ -90,20 +99,27 @@ impl Targets {
                     rest /= axis.len();
                 }
             }
-            Layout::List(points) => {
+            Layout::List { points, .. } => {
                 point.copy_from_slice(&points[target * self.dimension..(target + 1) * self.dimension]);
             }
         }
     }
 
-    /// For aligned targets: the cell coordinates of a target.
-    pub fn cell_coordinates(&self, target: usize, alignment: &[Alignment], cell: &mut [i32]) {
-        let Layout::Lattice { axes, .. } = &self.layout else { return };
-        let mut rest = target;
-        for (j, axis) in axes.iter().enumerate().rev() {
-            let index = (rest % axis.len()) as u32;
-            cell[j] = (alignment[j].first_cell + alignment[j].stride * index) as i32;
-            rest /= axis.len();
+    /// Writes the coordinates of the cell that contains a target into `cell`: decided exactly, whatever the samples.
+    ///
+    /// −1 and the number of cells stand for what lies below and above the partition.
+    pub fn cell(&self, target: usize, cell: &mut [i32]) {
+        match &self.layout {
+            Layout::Lattice { cells, .. } => {
+                let mut rest = target;
+                for (index, axis) in cell.iter_mut().zip(cells).rev() {
+                    *index = axis[rest % axis.len()];
+                    rest /= axis.len();
+                }
+            }
+            Layout::List { cells, .. } => {
+                cell.copy_from_slice(&cells[target * self.dimension..(target + 1) * self.dimension]);
+            }
         }
     }
 
@@ -116,7 +132,7 @@ impl Targets {
                     *magnitude = axis.iter().fold(0.0, |m, x| m.max(x.abs()));
                 }
             }
-            Layout::List(points) => {
+            Layout::List { points, .. } => {
                 for (i, x) in points.iter().enumerate() {
                     let magnitude = &mut magnitudes[i % self.dimension];
                     *magnitude = magnitude.max(x.abs());
@@ -125,6 +141,12 @@ impl Targets {
         }
         magnitudes
     }
+}
+
+/// The index of the cell that contains `x`, or −1 below the partition and the number of cells above it.
+fn cell_along(axis: &Axis, x: &Rational) -> i32 {
+    let outside = if x < axis.lower() { -1 } else { axis.cells() as i32 };
+    axis.locate(x).map_or(outside, |index| index as i32)
 }
 
 fn align(grid: &Grid, partition: &Grid) -> Option<Vec<Alignment>> {
@@ -156,7 +178,21 @@ mod tests {
         let alignment = targets.alignment().unwrap();
         assert!(alignment.iter().all(|a| a.stride == 1 && a.phase == Rational::new(1.into(), 2.into())));
         let mut cell = [0; 2];
-        targets.cell_coordinates(4, alignment, &mut cell);
+        targets.cell(4, &mut cell);
         assert_eq!(cell, [1, 1]);
+    }
+
+    #[test]
+    fn cells_of_points_are_exact() {
+        let exact = |values: &[f64]| values.iter().map(|&x| from_decimal(x).unwrap()).collect::<Vec<_>>();
+        let grid = Grid::new(&exact(&[-3.4]), &exact(&[1.0]), &[11]).unwrap();
+        // In doubles −0.2 is below the face −3.4 + 8 · 0.4.
+        let points = [-0.2, -0.200_000_001, 1.0, -3.5].map(|x| exact(&[x]));
+        let targets = Targets::new(&TargetPoints::List(points.to_vec()), &grid);
+        let mut cell = [0];
+        for (target, expected) in [8, 7, 11, -1].into_iter().enumerate() {
+            targets.cell(target, &mut cell);
+            assert_eq!(cell, [expected]);
+        }
     }
 }

@@ -16,6 +16,8 @@ pub struct Event {
     pub group_steps: u64,
     /// When the unsafe region is avoided.
     pub safety: Safety,
+    /// When the outside of the partition is avoided: like the unsafe region where the task says so.
+    pub outside: Safety,
 }
 
 /// When the unsafe region is avoided.
@@ -32,18 +34,25 @@ impl Event {
     /// The task of a problem.
     pub fn of(problem: &Problem) -> Self {
         let group_steps = problem.group_steps() as u64;
-        let everywhere = group_steps == 1 || problem.unsafe_regions().is_empty();
+        let outside_everywhere = group_steps == 1 || problem.outside_is_unsafe();
         Self {
             aim: problem.objective().aim(),
             horizon: problem.horizon().map(|steps| steps * group_steps),
             group_steps,
-            safety: if everywhere { Safety::EveryStep } else { Safety::GroupedInstants },
+            safety: problem.safety(),
+            outside: if outside_everywhere { problem.safety() } else { Safety::GroupedInstants },
         }
     }
 
     /// The task of a problem whose actions are inputs.
     pub fn of_inputs(problem: &InputProblem) -> Self {
         let aim = problem.objective().aim();
-        Self { aim, horizon: problem.horizon(), group_steps: 1, safety: Safety::EveryStep }
+        Self {
+            aim,
+            horizon: problem.horizon(),
+            group_steps: 1,
+            safety: Safety::EveryStep,
+            outside: Safety::EveryStep,
+        }
     }
 }

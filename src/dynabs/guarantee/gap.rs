@@ -17,6 +17,8 @@ pub enum Gap {
     AfterReached,
     /// The formula reads variables, or labels of cells, in `reached`.
     ReadsReached,
+    /// The question is not about one probability.
+    Expression,
 }
 
 impl fmt::Display for Gap {
@@ -30,6 +32,7 @@ impl fmt::Display for Gap {
             Self::FalseInFailed => {
                 "the formula is false in \"failed\", where noise counts that no row lists, although it may make it true"
             }
+            Self::Expression => "only questions of one probability of F, G, U or X, without others inside, are covered",
             Self::AfterReached => {
                 "the model stays in \"reached\", but a run ends there: of what comes after it nothing is known. Ask for an \
                  until that ends in \"reached\", such as !\"failed\" U \"reached\""

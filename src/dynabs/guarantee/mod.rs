@@ -39,7 +39,13 @@ pub struct Guarantee {
 impl Guarantee {
     /// A guarantee of nothing.
     pub fn none() -> Self {
-        let event = Event { aim: Aim::Reach, horizon: None, group_steps: 1, safety: Safety::EveryStep };
+        let event = Event {
+            aim: Aim::Reach,
+            horizon: None,
+            group_steps: 1,
+            safety: Safety::EveryStep,
+            outside: Safety::EveryStep,
+        };
         Self { event, evidence: Evidence::Published { beta_per_interval: 1.0 } }
     }
 

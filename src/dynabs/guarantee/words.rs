@@ -73,11 +73,14 @@ impl Guarantee {
         }];
         let d = self.event.group_steps;
         if d > 1 {
-            sentences.push(match self.event.safety {
-                Safety::EveryStep => format!(
+            sentences.push(match (self.event.safety, self.event.outside) {
+                (Safety::EveryStep, Safety::EveryStep) => {
+                    "The unsafe region and the outside of the partition are avoided at every step.".to_owned()
+                }
+                (Safety::EveryStep, Safety::GroupedInstants) => format!(
                     "The unsafe region is avoided at every step, the outside of the partition every {d} steps."
                 ),
-                Safety::GroupedInstants => format!(
+                (Safety::GroupedInstants, _) => format!(
                     "Safety is checked every {d} steps only: the unsafe region may be crossed in between."
                 ),
             });

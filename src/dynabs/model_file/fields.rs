@@ -237,15 +237,39 @@ pub(super) struct TaskSpec {
     #[serde(default)]
     pub(super) safe: Option<Vec<RegionSpec>>,
     /// What must be avoided: a union of boxes; a cell counts if it meets one. Boxes are half-open,
-    /// [lower, upper), like cells.
+    /// [lower, upper), like cells. The entry "outside" stands for everything outside the partition: with grouped steps
+    /// it is then avoided between them too.
     #[serde(rename = "unsafe", default)]
-    pub(super) unsafe_: Vec<RegionSpec>,
+    pub(super) unsafe_: Vec<UnsafeSpec>,
     /// The number of original steps that the task is about, or "infinite".
     pub(super) horizon: Horizon,
     /// The probability that is wanted, if any.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub(super) threshold: Option<f64>,
+    /// With grouped steps, when the unsafe region must be avoided: at "every_step" (the default, unless the samples are
+    /// of "grouped" steps), or only at the "grouped" instants, which promises nothing for the steps in between.
+    #[serde(default)]
+    pub(super) check: Option<SafetyCheck>,
+}
+
+/// Something unsafe.
+#[derive(Clone, Debug)]
+pub(super) enum UnsafeSpec {
+    /// Everything outside the partition.
+    Outside,
+    /// A box.
+    Region(RegionSpec),
+}
+
+/// When the unsafe region must be avoided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum SafetyCheck {
+    /// At every original step.
+    EveryStep,
+    /// Whenever a group of steps ends.
+    Grouped,
 }
 
 /// What is wanted.
@@ -349,6 +373,33 @@ impl<'de> Deserialize<'de> for Horizon {
     }
 }
 
+impl<'de> Deserialize<'de> for UnsafeSpec {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(UnsafeVisitor)
+    }
+}
+
+struct UnsafeVisitor;
+
+impl<'de> Visitor<'de> for UnsafeVisitor {
+    type Value = UnsafeSpec;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a box {\"lower\", \"upper\"} or \"outside\"")
+    }
+
+    fn visit_str<E: de::Error>(self, value: &str) -> Result<UnsafeSpec, E> {
+        match value {
+            "outside" => Ok(UnsafeSpec::Outside),
+            other => Err(E::invalid_value(de::Unexpected::Str(other), &self)),
+        }
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<UnsafeSpec, A::Error> {
+        RegionSpec::deserialize(MapAccessDeserializer::new(map)).map(UnsafeSpec::Region)
+    }
+}
+
 impl<'de> Deserialize<'de> for TargetsSpec {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(TargetsVisitor)
@@ -397,6 +448,17 @@ impl JsonSchema for Horizon {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({"anyOf": [{"type": "integer", "minimum": 1}, {"const": "infinite"}]})
+    }
+}
+
+impl JsonSchema for UnsafeSpec {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Unsafe".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let region = generator.subschema_for::<RegionSpec>();
+        json_schema!({"anyOf": [region, {"const": "outside"}]})
     }
 }
 

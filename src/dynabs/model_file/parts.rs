@@ -3,12 +3,14 @@
 use super::Document;
 use super::fields::{
     ActionsSpec, DynamicsSpec, GaussianSpec, GridSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec,
-    RegionSpec, SampleKindSpec, SamplesSpec, SetSpec, StabilizerSpec, TargetsSpec, TaskKind, TaskSpec,
+    RegionSpec, SafetyCheck, SampleKindSpec, SamplesSpec, SetSpec, StabilizerSpec, TargetsSpec, TaskKind,
+    TaskSpec, UnsafeSpec,
 };
 use super::input_parts::input_parts;
 use crate::Diagnostic;
+use crate::guarantee::Safety;
 use crate::problem::{
-    DrawnNoise, Gain, GaussianNoise, InputProblem, InputSet, LinearDynamics, LowerLayer, LqrWeights,
+    DrawnNoise, Gain, GaussianNoise, Hazard, InputProblem, InputSet, LinearDynamics, LowerLayer, LqrWeights,
     NoiseSource, Partition, Probabilities, Problem, ProblemBuilder, RegionBox, SampleKind, SamplesFile,
     TargetChoice, Task,
 };
@@ -165,18 +167,27 @@ pub(super) fn task(spec: TaskSpec) -> Result<Task, Diagnostic> {
         TaskSpec { kind: TaskKind::Reach, goal: Some(goal), .. } => Task::reach(boxes(goal)),
         TaskSpec { kind: TaskKind::Stay, safe, .. } => Task::stay(boxes(safe.unwrap_or_default())),
     };
-    Ok(Task { horizon: spec.horizon, threshold: spec.threshold, ..wanted.avoiding(boxes(spec.unsafe_)) })
+    let hazard = |spec| match spec {
+        UnsafeSpec::Outside => Hazard::Outside,
+        UnsafeSpec::Region(spec) => Hazard::Box(region_box(spec)),
+    };
+    let check = spec.check.map(|check| match check {
+        SafetyCheck::EveryStep => Safety::EveryStep,
+        SafetyCheck::Grouped => Safety::GroupedInstants,
+    });
+    let unsafe_ = spec.unsafe_.into_iter().map(hazard).collect();
+    Ok(Task { unsafe_, horizon: spec.horizon, threshold: spec.threshold, check, ..wanted })
 }
 
 fn boxes(specs: Vec<RegionSpec>) -> Vec<RegionBox> {
+    specs.into_iter().map(region_box).collect()
+}
+
+fn region_box(spec: RegionSpec) -> RegionBox {
     let side = |values: Vec<Option<f64>>, unbounded| {
         values.into_iter().map(|x: Option<f64>| x.unwrap_or(unbounded)).collect()
     };
-    let region = |spec: RegionSpec| RegionBox {
-        lower: side(spec.lower, f64::NEG_INFINITY),
-        upper: side(spec.upper, f64::INFINITY),
-    };
-    specs.into_iter().map(region).collect()
+    RegionBox { lower: side(spec.lower, f64::NEG_INFINITY), upper: side(spec.upper, f64::INFINITY) }
 }
 
 fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {

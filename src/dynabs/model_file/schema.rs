@@ -10,5 +10,5 @@ pub fn json_schema() -> String {
 
 /// A small complete model whose descriptions explain its fields.
 pub fn starter_model() -> &'static str {
-    include_str!("../../../templates/model.json")
+    include_str!("../templates/model.json")
 }

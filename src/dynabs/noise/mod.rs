@@ -7,4 +7,4 @@ mod samples;
 
 pub use csv::{CsvError, parse_csv};
 pub use gaussian::Gaussian;
-pub use samples::NoiseSamples;
+pub use samples::{NoiseSample, NoiseSamples};

@@ -116,12 +116,14 @@ impl ProblemBuilder {
 
         let grid = given(self.partition, "partition")?.grid("/partition", n)?;
         let actions = regions::actions("/targets", &self.targets, n)?;
-        let task = task::CheckedTask::new(&given(self.task, "task")?, &grid, group_steps)?;
+        let wanted = given(self.task, "task")?;
+        let task = task::CheckedTask::new(&wanted, &grid, group_steps)?;
         let initial = self.initial_state.map(|state| initial(state, &grid)).transpose()?;
         let stabilizer =
             self.lower_layer.map(|layer| lower_layer::stabilizer(&layer, &system, &input, &grid));
         let stabilizer = stabilizer.transpose()?;
         let noise = given(self.noise, "noise")?.obtain(&step_system, group_steps)?;
+        let safety = task::safety(wanted.check, group_steps, &noise.of_one_step, &self.probabilities)?;
         let mut warnings = task.warnings;
         warnings.extend(stabilizer.iter().flat_map(|s| s.warnings.iter().cloned()));
         warnings.extend(noise.warnings.iter().cloned());
@@ -137,6 +139,8 @@ impl ProblemBuilder {
             labels: task.labels,
             objective: task.objective,
             unsafe_: task.unsafe_,
+            outside_is_unsafe: task.outside_is_unsafe,
+            safety,
             actions,
             horizon: task.horizon,
             threshold: task.threshold,

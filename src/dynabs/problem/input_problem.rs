@@ -7,12 +7,12 @@ use super::problem::Objective;
 use super::regions::Partition;
 use super::task::{CheckedTask, Task};
 use super::values::{count, vector};
-use crate::Diagnostic;
 use crate::geometry::Polytope;
 use crate::linear_algebra::ExactMatrix;
 use crate::noise::known::Distribution;
 use crate::partition::{CellId, CellLabels, Grid, Region};
 use crate::system::{Feedback, Mode};
+use crate::{Diagnostic, Warning};
 use imdp::numeric::Rational;
 use imdp::property::Probability;
 use num_traits::{Signed, Zero};
@@ -72,7 +72,7 @@ pub struct InputProblem {
     horizon: Option<u64>,
     threshold: Option<Probability>,
     initial: Option<InitialState>,
-    warnings: Vec<String>,
+    warnings: Vec<Warning>,
 }
 
 /// More inputs than this are a mistake.
@@ -119,10 +119,8 @@ impl InputProblem {
         let initial = parts.initial_state.map(|state| initial(state, &grid)).transpose()?;
         let mut warnings = task.warnings;
         if inputs.len() < given_inputs {
-            warnings.push(format!(
-                "/input: {} of {given_inputs} inputs leave no room for the feedback and are not used",
-                given_inputs - inputs.len()
-            ));
+            let unused = given_inputs - inputs.len();
+            warnings.push(Warning::UnusedInputs { unused, inputs: given_inputs });
         }
         Ok(Self {
             name: parts.name,
@@ -225,7 +223,7 @@ impl InputProblem {
     }
 
     /// What the user should know.
-    pub fn warnings(&self) -> &[String] {
+    pub fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 }

@@ -3,6 +3,7 @@
 use super::InputSet;
 use super::values::{matrix, symmetric, vector};
 use crate::Diagnostic;
+use crate::Warning;
 use crate::geometry::Polytope;
 use crate::linear_algebra::{Definiteness, ExactMatrix};
 use crate::partition::Grid;
@@ -47,7 +48,7 @@ pub struct Stabilizer {
     /// The relative residual of the Riccati equation, if the gain is an LQR gain.
     pub riccati_residual: Option<f64>,
     /// What the user should know.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }
 
 /// Builds the lower layer for the grouped `system` with inputs `input`.
@@ -126,21 +127,16 @@ fn lqr_gain(weights: &LqrWeights, system: &LinearSystem) -> Result<(ExactMatrix,
     Ok((gain, lqr.residual))
 }
 
-fn warnings(layers: &TwoLayer, input: &Polytope, grid: &Grid) -> Vec<String> {
+fn warnings(layers: &TwoLayer, input: &Polytope, grid: &Grid) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let radius = layers.eigenvalues().first().map_or(0.0, |(re, im)| re.hypot(*im));
     if radius >= 1.0 {
-        warnings.push(format!(
-            "/stabilizer: the closed loop has spectral radius {radius:.6}: this gain does not stabilise"
-        ));
+        warnings.push(Warning::Unstable { radius });
     }
     let lower: Vec<_> = grid.axes().iter().map(|axis| axis.lower().clone()).collect();
     let upper: Vec<_> = grid.axes().iter().map(|axis| axis.upper().clone()).collect();
     if let Some((worst, offset)) = lower_layer_violation(layers, input, &lower, &upper) {
-        warnings.push(format!(
-            "/stabilizer: −K(x − x̄) leaves U on the partition (a half-space with offset {offset} reaches \
-             {worst:.4}); cells where no action is left are reported as deadlocks"
-        ));
+        warnings.push(Warning::GainLeavesInput { worst, offset });
     }
     warnings
 }

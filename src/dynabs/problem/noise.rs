@@ -1,11 +1,12 @@
 //! Where the noise samples come from: memory, a file, a distribution.
 
 use super::values::{count, symmetric, vector};
-use crate::Diagnostic;
 use crate::linear_algebra::Definiteness;
 use crate::memory::Need;
 use crate::noise::{CsvError, Gaussian, NoiseSamples, parse_csv};
+use crate::statistics::departures;
 use crate::system::LinearSystem;
+use crate::{Diagnostic, Warning};
 use imdp::numeric::to_f64;
 use std::path::PathBuf;
 
@@ -77,12 +78,14 @@ pub enum SampleKind {
 pub struct SampledNoise {
     /// Samples of the grouped noise.
     pub samples: NoiseSamples,
+    /// The noise so far after each step within a group, sample by sample; none if the samples are of grouped steps.
+    pub between: Vec<NoiseSamples>,
     /// What is known of the noise of one step.
     pub of_one_step: StepNoise,
     /// How they were obtained.
     pub origin: NoiseOrigin,
     /// What the user should know.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }
 
 /// How samples were obtained.
@@ -195,13 +198,14 @@ impl DrawnNoise {
             let expected = format!("between 1 and {MAX_SAMPLES} samples");
             return Err(Diagnostic::at("/noise/count", self.count.to_string(), expected));
         }
-        // What is drawn, and as much again when it is grouped.
+        // What is drawn, the noise of groups, and that of the steps in between.
         let numbers = self.count * (d * system.state_dimension()) as u64;
-        let need = Need { what: "samples", bytes: 24 * numbers, field: "/noise/count" };
+        let need = Need { what: "samples", bytes: 40 * numbers, field: "/noise/count" };
         need.check().map_err(|error| Diagnostic::from(&error))?;
-        let samples = gaussian.sample(self.count as usize * d, self.seed).grouped(system, d);
+        let (samples, between) = sums(&gaussian.sample(self.count as usize * d, self.seed), system, d);
         Ok(SampledNoise {
             samples,
+            between,
             of_one_step: StepNoise::Gaussian(gaussian),
             origin: NoiseOrigin::Drawn { seed: self.seed },
             warnings: vec![],
@@ -221,7 +225,7 @@ impl GivenSamples {
             return Err(Diagnostic::at(format!("{place}/{}/{}", i / n, i % n), found, "a finite number"));
         }
         let given = NoiseSamples::new(n, self.values.clone());
-        grouped(given, self.of, system, d, place, NoiseOrigin::Memory)
+        grouped(given, self.of, (system, d), (place, place), NoiseOrigin::Memory)
     }
 }
 
@@ -236,12 +240,8 @@ impl SamplesFile {
         let read =
             parse_csv(&text, system.state_dimension()).map_err(|error| malformed(&error).in_file(&name))?;
         let origin = NoiseOrigin::File { name: self.name.clone(), text };
-        grouped(read, self.of, system, d, "", origin).map_err(|error| error.in_file(&name)).map(
-            |mut noise| {
-                noise.warnings.iter_mut().for_each(|warning| *warning = format!("{name}: {warning}"));
-                noise
-            },
-        )
+        let grouped = grouped(read, self.of, (system, d), ("", &name), origin);
+        grouped.map_err(|error| error.in_file(&name))
     }
 }
 
@@ -261,35 +261,47 @@ fn malformed(error: &CsvError) -> Diagnostic {
     Diagnostic::at(place, found, expected).remedy(remedy)
 }
 
-/// Samples of groups of `d` steps, from samples of groups or steps.
+/// Samples of groups of `d` steps, from samples of groups or steps; `source` is what warnings call them.
 fn grouped(
     read: NoiseSamples,
     of: SampleKind,
-    system: &LinearSystem,
-    d: usize,
-    place: &str,
+    (system, d): (&LinearSystem, usize),
+    (place, source): (&str, &str),
     origin: NoiseOrigin,
 ) -> Result<SampledNoise, Diagnostic> {
     if read.len() as u64 > MAX_SAMPLES {
         let expected = format!("at most {MAX_SAMPLES}");
         return Err(Diagnostic::at(place, format!("{} samples", read.len()), expected));
     }
-    let mut warnings = Vec::new();
-    let (samples, of_one_step) = match of {
-        SampleKind::Grouped => (read, StepNoise::Unknown),
+    let source = || source.to_owned();
+    let dependence = |departure| Warning::NotIndependent { source: source(), departure };
+    let mut warnings: Vec<Warning> =
+        departures(read.dimension(), read.values()).into_iter().map(dependence).collect();
+    let ((samples, between), of_one_step) = match of {
+        SampleKind::Grouped => ((read, vec![]), StepNoise::Unknown),
         SampleKind::Step => {
-            let (all, left_over) = (read.len(), read.len() % d);
-            if all < d {
-                let found = format!("{all} samples of one step");
+            let (samples, left_over) = (read.len(), read.len() % d);
+            if samples < d {
+                let found = format!("{samples} samples of one step");
                 return Err(Diagnostic::at(place, found, format!("at least {d}, one group")));
             }
             if left_over > 0 {
-                warnings.push(format!(
-                    "the last {left_over} of {all} samples do not fill a group of {d} and are not used"
-                ));
+                warnings.push(Warning::LeftOverSamples {
+                    source: source(),
+                    left_over,
+                    samples,
+                    group_steps: d,
+                });
             }
-            (read.grouped(system, d), StepNoise::Samples(read))
+            (sums(&read, system, d), StepNoise::Samples(read))
         }
     };
-    Ok(SampledNoise { samples, of_one_step, origin, warnings })
+    Ok(SampledNoise { samples, between, of_one_step, origin, warnings })
+}
+
+/// The noise of `d` steps together, and the noise so far after each step before the last.
+fn sums(steps: &NoiseSamples, system: &LinearSystem, d: usize) -> (NoiseSamples, Vec<NoiseSamples>) {
+    let mut sums = steps.partial_sums(system, d);
+    let last = sums.pop().unwrap_or_else(|| steps.clone());
+    (last, sums)
 }

@@ -1,7 +1,9 @@
 //! A control problem that is known to make sense.
 
 use super::{Dynamics, InputSet, Probabilities, ProblemBuilder, SampledNoise, Stabilizer};
+use crate::Warning;
 use crate::geometry::Polytope;
+use crate::guarantee::Safety;
 use crate::landing::Aim;
 use crate::partition::{CellId, CellLabels, Grid, Region};
 use crate::system::LinearSystem;
@@ -22,13 +24,15 @@ pub struct Problem {
     pub(super) labels: CellLabels,
     pub(super) objective: Objective,
     pub(super) unsafe_: Vec<Region>,
+    pub(super) outside_is_unsafe: bool,
+    pub(super) safety: Safety,
     pub(super) actions: Actions,
     pub(super) horizon: Option<u64>,
     pub(super) threshold: Option<Probability>,
     pub(super) initial: Option<InitialState>,
     pub(super) probabilities: Probabilities,
     pub(super) noise: SampledNoise,
-    pub(super) warnings: Vec<String>,
+    pub(super) warnings: Vec<Warning>,
 }
 
 /// An initial state and its cell.
@@ -150,6 +154,16 @@ impl Problem {
         &self.unsafe_
     }
 
+    /// Whether everything outside the partition is unsafe too. At grouped instants it counts as failed anyway.
+    pub fn outside_is_unsafe(&self) -> bool {
+        self.outside_is_unsafe
+    }
+
+    /// When the unsafe region is avoided.
+    pub fn safety(&self) -> Safety {
+        self.safety
+    }
+
     /// What the controller chooses from.
     pub fn actions(&self) -> &Actions {
         &self.actions
@@ -186,7 +200,7 @@ impl Problem {
     }
 
     /// What the user should know.
-    pub fn warnings(&self) -> &[String] {
+    pub fn warnings(&self) -> &[Warning] {
         &self.warnings
     }
 }

@@ -95,7 +95,7 @@ pub(super) fn regions(place: &str, boxes: &[RegionBox], n: usize) -> Result<Vec<
     boxes.iter().enumerate().map(|(i, b)| region(&format!("{place}/{i}"), b, n)).collect()
 }
 
-fn region(place: &str, given: &RegionBox, n: usize) -> Result<Region, Diagnostic> {
+pub(super) fn region(place: &str, given: &RegionBox, n: usize) -> Result<Region, Diagnostic> {
     let side = |name: &str, values: &[f64], unbounded: f64| -> Result<Vec<Option<Rational>>, Diagnostic> {
         if values.len() != n {
             let expected = format!("{n}, one per dimension of the state (null is unbounded)");

@@ -1,11 +1,12 @@
 //! What the controller is to achieve, and what it makes of the cells.
 
 use super::problem::Objective;
-use super::regions::{RegionBox, regions, widths};
-use crate::Diagnostic;
+use super::regions::{RegionBox, region, regions, widths};
+use super::{Probabilities, StepNoise};
+use crate::guarantee::Safety;
 use crate::memory::Need;
-use crate::partition::{CellKind, CellLabels, Grid, NearMiss, Region, first_overlap, near_misses};
-use imdp::numeric::{shortest_decimal, to_f64};
+use crate::partition::{CellKind, CellLabels, Grid, Region, first_overlap, near_misses};
+use crate::{Diagnostic, Warning};
 use imdp::property::Probability;
 
 /// What is wanted, where, within how many steps.
@@ -13,12 +14,23 @@ use imdp::property::Probability;
 pub struct Task {
     /// What is wanted.
     pub aim: Aim,
-    /// What must be avoided: a union of boxes; a cell counts if it meets one.
-    pub unsafe_: Vec<RegionBox>,
+    /// What must be avoided.
+    pub unsafe_: Vec<Hazard>,
     /// The number of original steps.
     pub horizon: Horizon,
     /// The probability that is wanted, if any.
     pub threshold: Option<f64>,
+    /// When, with grouped steps, the unsafe region must be avoided: by default at every step, if the samples are of steps.
+    pub check: Option<Safety>,
+}
+
+/// Something that must be avoided.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Hazard {
+    /// A box; a cell counts if it meets one.
+    Box(RegionBox),
+    /// Everything outside the partition: between grouped steps too.
+    Outside,
 }
 
 /// What is wanted besides safety.
@@ -48,18 +60,38 @@ pub enum Horizon {
 impl Task {
     /// To reach a union of boxes some time.
     pub fn reach(goal: Vec<RegionBox>) -> Self {
-        Self { aim: Aim::Reach { goal }, unsafe_: vec![], horizon: Horizon::Infinite, threshold: None }
+        Self {
+            aim: Aim::Reach { goal },
+            unsafe_: vec![],
+            horizon: Horizon::Infinite,
+            threshold: None,
+            check: None,
+        }
     }
 
     /// To stay in a union of boxes for ever; in the whole partition if there are none.
     pub fn stay(safe: Vec<RegionBox>) -> Self {
-        Self { aim: Aim::Stay { safe }, unsafe_: vec![], horizon: Horizon::Infinite, threshold: None }
+        Self { aim: Aim::Stay { safe }, ..Self::reach(vec![]) }
     }
 
-    /// Avoiding these boxes.
+    /// Avoiding these boxes too.
     #[must_use]
     pub fn avoiding(mut self, boxes: Vec<RegionBox>) -> Self {
-        self.unsafe_ = boxes;
+        self.unsafe_.extend(boxes.into_iter().map(Hazard::Box));
+        self
+    }
+
+    /// Avoiding everything outside the partition too.
+    #[must_use]
+    pub fn avoiding_outside(mut self) -> Self {
+        self.unsafe_.push(Hazard::Outside);
+        self
+    }
+
+    /// With safety meant like this where steps are grouped.
+    #[must_use]
+    pub fn checked(mut self, safety: Safety) -> Self {
+        self.check = Some(safety);
         self
     }
 
@@ -82,21 +114,31 @@ impl Task {
 pub(super) struct CheckedTask {
     pub(super) objective: Objective,
     pub(super) unsafe_: Vec<Region>,
+    pub(super) outside_is_unsafe: bool,
     pub(super) labels: CellLabels,
     /// In grouped steps.
     pub(super) horizon: Option<u64>,
     pub(super) threshold: Option<Probability>,
-    pub(super) warnings: Vec<String>,
+    pub(super) warnings: Vec<Warning>,
 }
 
 impl CheckedTask {
     /// Checks the regions, labels the cells, counts the horizon in groups of `d` steps.
     pub(super) fn new(task: &Task, grid: &Grid, d: usize) -> Result<Self, Diagnostic> {
         let n = grid.dimension();
-        let unsafe_ = regions("/task/unsafe", &task.unsafe_, n)?;
+        let (mut unsafe_, mut places, mut outside_is_unsafe) = (vec![], vec![], false);
+        for (i, hazard) in task.unsafe_.iter().enumerate() {
+            match hazard {
+                Hazard::Outside => outside_is_unsafe = true,
+                Hazard::Box(sides) => {
+                    unsafe_.push(region(&format!("/task/unsafe/{i}"), sides, n)?);
+                    places.push(i);
+                }
+            }
+        }
         Need::of_cells(grid).check().map_err(|error| Diagnostic::from(&error))?;
         let (objective, labels) = match &task.aim {
-            Aim::Reach { goal } => reach(goal, &unsafe_, grid)?,
+            Aim::Reach { goal } => reach(goal, (&unsafe_, &places), grid)?,
             Aim::Stay { safe } => stay(safe, &unsafe_, grid)?,
         };
         let mut warnings = Vec::new();
@@ -105,22 +147,51 @@ impl CheckedTask {
             Objective::Stay { safe } => ("safe", safe),
         };
         for (name, list) in [wanted, ("unsafe", &unsafe_)] {
-            warnings.extend(near_misses(grid, list).iter().map(|miss| near_miss_warning(name, miss)));
+            let warning = |miss| Warning::NearMiss { list: name, miss };
+            warnings.extend(near_misses(grid, list).into_iter().map(warning));
         }
         let horizon = horizon(task.horizon, d, &mut warnings)?;
-        if d > 1 && !unsafe_.is_empty() {
-            warnings.push(format!("the unsafe region is checked every {d} steps, at grouped instants only"));
-        }
         let threshold = task.threshold.map(threshold).transpose()?;
-        Ok(Self { objective, unsafe_, labels, horizon, threshold, warnings })
+        Ok(Self { objective, unsafe_, outside_is_unsafe, labels, horizon, threshold, warnings })
+    }
+}
+
+/// When the unsafe region is avoided, if `check` was asked for and `d` steps are grouped.
+pub(super) fn safety(
+    check: Option<Safety>,
+    d: usize,
+    noise: &StepNoise,
+    probabilities: &Probabilities,
+) -> Result<Safety, Diagnostic> {
+    if d == 1 {
+        return Ok(Safety::EveryStep);
+    }
+    let impossible = |found: &str, expected: &str| Err(Diagnostic::at("/task/check", found, expected));
+    let is_reference = matches!(probabilities, Probabilities::Reference { .. });
+    match (check, noise) {
+        (Some(Safety::EveryStep), _) if is_reference => impossible(
+            "\"every_step\" in mode \"reference\"",
+            "\"grouped\" there: the published tool looks no closer",
+        ),
+        (Some(Safety::EveryStep), StepNoise::Unknown) => impossible(
+            "\"every_step\" with samples of \"grouped\" steps, which say nothing about those in between",
+            "samples of one \"step\", or \"grouped\"",
+        ),
+        (Some(Safety::GroupedInstants), _) | (None, StepNoise::Unknown) => Ok(Safety::GroupedInstants),
+        (None, _) if is_reference => Ok(Safety::GroupedInstants),
+        (None | Some(Safety::EveryStep), _) => Ok(Safety::EveryStep),
     }
 }
 
 /// The goal, which must contain a cell.
-fn reach(goal: &[RegionBox], unsafe_: &[Region], grid: &Grid) -> Result<(Objective, CellLabels), Diagnostic> {
+fn reach(
+    goal: &[RegionBox],
+    (unsafe_, places): (&[Region], &[usize]),
+    grid: &Grid,
+) -> Result<(Objective, CellLabels), Diagnostic> {
     let goal = regions("/task/goal", goal, grid.dimension())?;
     if let Some((i, j)) = first_overlap(&goal, unsafe_) {
-        let found = format!("box {i} overlaps /task/unsafe/{j}");
+        let found = format!("box {i} overlaps /task/unsafe/{}", places[j]);
         let expected = "goal boxes that meet no unsafe box";
         return Err(Diagnostic::at(format!("/task/goal/{i}"), found, expected)
             .remedy("Cut the overlap out of one of the two; boxes may touch."));
@@ -150,7 +221,7 @@ fn stay(safe: &[RegionBox], unsafe_: &[Region], grid: &Grid) -> Result<(Objectiv
     Ok((Objective::Stay { safe }, labels))
 }
 
-fn horizon(horizon: Horizon, d: usize, warnings: &mut Vec<String>) -> Result<Option<u64>, Diagnostic> {
+fn horizon(horizon: Horizon, d: usize, warnings: &mut Vec<Warning>) -> Result<Option<u64>, Diagnostic> {
     let Horizon::Steps(steps) = horizon else { return Ok(None) };
     let (grouped, rest) = (steps / d as u64, steps % d as u64);
     if grouped == 0 {
@@ -165,10 +236,7 @@ fn horizon(horizon: Horizon, d: usize, warnings: &mut Vec<String>) -> Result<Opt
         return Err(Diagnostic::at("/task/horizon", steps.to_string(), expected));
     }
     if rest > 0 {
-        let used = grouped * d as u64;
-        warnings.push(format!(
-            "/task/horizon: {steps} steps are {grouped} groups of {d}; the guarantee is for the first {used}"
-        ));
+        warnings.push(Warning::CutHorizon { steps, used: grouped * d as u64, group_steps: d });
     }
     Ok(Some(grouped))
 }
@@ -176,16 +244,4 @@ fn horizon(horizon: Horizon, d: usize, warnings: &mut Vec<String>) -> Result<Opt
 fn threshold(threshold: f64) -> Result<Probability, Diagnostic> {
     Probability::from_f64(threshold)
         .map_err(|_| Diagnostic::at("/task/threshold", threshold.to_string(), "a probability in [0, 1]"))
-}
-
-fn near_miss_warning(name: &str, miss: &NearMiss) -> String {
-    format!(
-        "/task/{name}/{}: the face at {} in dimension {} is {:.1e} cell widths from the grid face {} but not on \
-         it; if they are meant to coincide, write the same number",
-        miss.region,
-        shortest_decimal(miss.face),
-        miss.dimension + 1,
-        miss.distance,
-        shortest_decimal(to_f64(&miss.grid_face)),
-    )
 }

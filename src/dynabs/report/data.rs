@@ -7,6 +7,7 @@ use super::paths::class;
 use super::regions::sides;
 use super::view::{Axis, View};
 use crate::partition::{CellId, CellKind, Region};
+use data_encoding::BASE64;
 use serde_json::{Value, json};
 
 /// Beyond this many cells a page is static.
@@ -60,7 +61,7 @@ pub(super) fn embed(material: &Material<'_>, view: &View) -> Embedded {
         "strides": problem.grid().strides(),
         "colours": (0..LEVELS).map(colour).collect::<Vec<_>>(),
         "firstLight": FIRST_LIGHT_LEVEL,
-        "values": {"type": "f32", "data": base64(&bytes)},
+        "values": {"type": "f32", "data": BASE64.encode(&bytes)},
         "kinds": packed((0..cells).map(kind)),
         "policy": policy(material),
         "targets": targets(material),
@@ -160,35 +161,12 @@ fn packed(numbers: impl Iterator<Item = u32>) -> Value {
         _ => ("u8", 1),
     };
     let bytes: Vec<u8> = numbers.iter().flat_map(|n| n.to_le_bytes().into_iter().take(width)).collect();
-    json!({"type": name, "data": base64(&bytes)})
-}
-
-/// Base64 with padding (RFC 4648).
-fn base64(bytes: &[u8]) -> String {
-    const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for chunk in bytes.chunks(3) {
-        let byte = |i: usize| u32::from(chunk.get(i).copied().unwrap_or_default());
-        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for i in 0..4 {
-            let digit = ALPHABET[(bits >> (18 - 6 * i) & 63) as usize];
-            text.push(if i <= chunk.len() { char::from(digit) } else { '=' });
-        }
-    }
-    text
+    json!({"type": name, "data": BASE64.encode(&bytes)})
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn base64_of_the_rfc() {
-        let cases = [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")];
-        for (plain, coded) in cases {
-            assert_eq!(base64(plain.as_bytes()), coded);
-        }
-    }
 
     #[test]
     fn numbers_take_the_bytes_they_need() {

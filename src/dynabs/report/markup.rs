@@ -1,7 +1,7 @@
 //! Text that is safe in HTML and SVG, and an SVG plot under construction.
 
 /// The style of plots, for pages (light and dark) and for files of their own.
-pub(super) const PLOT_STYLE: &str = include_str!("../../../templates/plot.css");
+pub(super) const PLOT_STYLE: &str = include_str!("../templates/plot.css");
 
 /// Text with the characters that mean something in markup replaced.
 pub(super) fn escape(text: &str) -> String {

@@ -9,7 +9,7 @@ use crate::problem::{Problem, StepNoise};
 use crate::run::Run;
 use imdp::numeric::to_f64;
 use imdp::progress::Progress;
-use imdp::solver::{Answer, AnswerError, SolverOptions};
+use imdp::solver::Answer;
 use std::time::Duration;
 
 /// Runs of unbounded tasks are given up after this many grouped steps.
@@ -51,20 +51,16 @@ pub struct Material<'a> {
 }
 
 impl<'a> Material<'a> {
-    /// Solves for every step, simulates, and gathers what a report needs.
-    ///
-    /// # Errors
-    /// [`AnswerError`] if the solver does not take the question.
+    /// Simulates, and gathers what a report needs.
     pub fn new(
         run: &'a Run,
         answer: &'a Answer,
         controller: &'a Controller,
         options: MaterialOptions,
-        solver: &SolverOptions<'_>,
         progress: &dyn Progress,
-    ) -> Result<Self, AnswerError> {
+    ) -> Self {
         let problem = &run.problem;
-        let values = StepValues::new(run, answer, solver)?;
+        let values = StepValues::new(run, answer);
         let start = problem
             .initial_state()
             .map(<[f64]>::to_vec)
@@ -80,7 +76,7 @@ impl<'a> Material<'a> {
         let faces = problem.grid().axes().iter();
         let faces = faces.map(|axis| (0..=axis.cells()).map(|i| to_f64(&axis.face(i))).collect()).collect();
         let noise_mean = mean(problem);
-        Ok(Self {
+        Self {
             run,
             answer,
             controller,
@@ -92,7 +88,7 @@ impl<'a> Material<'a> {
             trajectories,
             noise_mean,
             faces,
-        })
+        }
     }
 
     pub(super) fn problem(&self) -> &'a Problem {

@@ -4,7 +4,7 @@ use super::markup::{escape, table};
 use super::material::Material;
 use super::numbers::{short, tuple};
 use super::results::CrossChecks;
-use crate::guarantee::Evidence;
+use crate::guarantee::{Evidence, Safety};
 use crate::run::Run;
 
 /// A number with thin spaces between groups of three digits.
@@ -27,7 +27,7 @@ pub(super) fn simulation(material: &Material<'_>) -> String {
     if tally.runs == 0 {
         return "<p>Nothing was simulated.</p>\n".to_owned();
     }
-    let frequency = tally.satisfaction(0.01);
+    let frequency = tally.satisfaction(material.problem().safety(), 0.01);
     let ends = [
         ("reached a goal cell", tally.reached),
         ("met the unsafe region (in a cell)", tally.r#unsafe),
@@ -37,15 +37,22 @@ pub(super) fn simulation(material: &Material<'_>) -> String {
         ("were given up", tally.unfinished),
     ];
     let share = |n: u64| short(n as f64 / tally.runs as f64);
-    let mut rows = vec![row(&["satisfied the task", &count(tally.satisfied), &share(tally.satisfied)])];
+    let (grouped, safety) = (material.problem().group_steps() > 1, material.problem().safety());
+    let mut rows = vec![];
+    if grouped {
+        let [every, instants] = [tally.satisfied, tally.satisfied_at_instants];
+        rows.push(row(&["satisfied the task, safe at every step", &count(every), &share(every)]));
+        rows.push(row(&["satisfied it at grouped instants", &count(instants), &share(instants)]));
+    } else {
+        rows.push(row(&["satisfied the task", &count(tally.satisfied), &share(tally.satisfied)]));
+    }
     rows.extend(ends.iter().filter(|(_, n)| *n > 0).map(|(name, n)| row(&[name, &count(*n), &share(*n)])));
-    if material.problem().group_steps() > 1 {
-        let n = tally.unsafe_between;
-        rows.push(row(&[
-            "met the unsafe region between grouped instants (not covered)",
-            &count(n),
-            &share(n),
-        ]));
+    if grouped {
+        let covered = match safety {
+            Safety::EveryStep => "met something unsafe between grouped instants",
+            Safety::GroupedInstants => "met something unsafe between grouped instants (not covered)",
+        };
+        rows.push(row(&[covered, &count(tally.unsafe_between), &share(tally.unsafe_between)]));
     }
     rows.push(row(&["inputs outside U", &count(tally.violations), ""]));
     let caption = format!(

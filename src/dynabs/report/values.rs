@@ -1,14 +1,7 @@
 //! The value function at every step that is shown.
 
 use crate::run::Run;
-use imdp::property::QueryKind;
-use imdp::solver::{Answer, AnswerError, Event, SolverOptions, solve};
-
-/// The most steps for which values are kept.
-const MOST_STEPS: u64 = 60;
-
-/// The most values that are kept for all steps together: 2.4 MB.
-const MOST_VALUES: u64 = 600_000;
+use imdp::solver::Answer;
 
 /// Lower bounds on the value of every cell, rounded down, for the first steps.
 #[derive(Clone, Debug)]
@@ -18,19 +11,13 @@ pub(super) struct StepValues {
 }
 
 impl StepValues {
-    pub(super) fn new(run: &Run, answer: &Answer, options: &SolverOptions<'_>) -> Result<Self, AnswerError> {
+    /// The values of an answer and of the earlier steps that came with it.
+    pub(super) fn new(run: &Run, answer: &Answer) -> Self {
         let mut by_step = vec![of_cells(run, &answer.values.lower)];
-        if let QueryKind::Until { safe, goal, steps: Some(horizon) } = &answer.query.kind {
-            let cells = u64::from(run.problem.grid().num_cells());
-            let last = (*horizon).min(MOST_STEPS).min((MOST_VALUES / cells).saturating_sub(1));
-            let options = SolverOptions { policy: false, evidence: false, ..*options };
-            for step in 1..=last {
-                let query = Event::Until { safe, goal, steps: Some(horizon - step) };
-                let solution = solve(&run.abstraction.model, &query, answer.query.resolution, &options)?;
-                by_step.push(of_cells(run, &solution.values.lower));
-            }
+        if !answer.query.complement {
+            by_step.extend(answer.solution.history.iter().map(|values| of_cells(run, values)));
         }
-        Ok(Self { by_step })
+        Self { by_step }
     }
 
     /// The last step that is kept.

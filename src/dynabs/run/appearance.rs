@@ -12,6 +12,9 @@ pub(super) const PROBLEM: &str = "problem.json";
 /// The name of the noise samples in a run's directory.
 pub(super) const NOISE: &str = "noise.csv";
 
+/// The name of the solution in a run's directory.
+pub(super) const SOLUTION: &str = "solution.bin";
+
 /// What the names of directories end with whose files are on the way into the directory that they are in.
 const RUN: &str = ".run";
 
@@ -139,7 +142,7 @@ fn is_own(name: &str) -> bool {
     const STEMS: [&str; 2] = ["model", "rows"];
     const EXTENSIONS: [&str; 7] = ["tra", "sta", "lab", "drn", "umb", "dynabs", "props"];
     let parts = name.split_once('.');
-    [MANIFEST, PROBLEM, NOISE].contains(&name)
+    [MANIFEST, PROBLEM, NOISE, SOLUTION].contains(&name)
         || parts.is_some_and(|(stem, extension)| STEMS.contains(&stem) && EXTENSIONS.contains(&extension))
 }
 

@@ -84,6 +84,11 @@ impl RunFiles {
         Ok(path)
     }
 
+    /// The path of a file, for messages.
+    pub(super) fn path(&self, name: &str) -> String {
+        self.directory.join(name).display().to_string()
+    }
+
     /// The SHA-256 that the manifest gives a file.
     pub fn sha256(&self, name: &str) -> Option<&str> {
         self.outputs.iter().find(|file| file.name == name).map(|file| file.sha256.as_str())
@@ -93,7 +98,7 @@ impl RunFiles {
         if self.sha256(name) == Some(sha256) {
             return Ok(());
         }
-        Err(OpenError::Changed { path: self.directory.join(name).display().to_string() })
+        Err(OpenError::Changed { path: self.path(name) })
     }
 
     pub(super) fn refuse(&self, found: String) -> OpenError {
@@ -107,7 +112,7 @@ impl RunFiles {
     fn unreadable(&self, name: &str, error: io::Error) -> OpenError {
         match error.kind() {
             io::ErrorKind::NotFound => self.refuse(format!("no {name}")),
-            _ => OpenError::Io { path: self.directory.join(name).display().to_string(), error },
+            _ => OpenError::Io { path: self.path(name), error },
         }
     }
 }

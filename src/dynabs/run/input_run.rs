@@ -97,7 +97,7 @@ impl Manifest {
             property: abstraction.property(Resolution::Pmaxmin).to_string(),
             threshold: problem.threshold().map(Probability::to_f64),
             initial_state: problem.initial_state().map(<[f64]>::to_vec),
-            warnings: problem.warnings().to_vec(),
+            warnings: problem.warnings().iter().map(ToString::to_string).collect(),
             inputs: vec![InputFile { name, sha256: sha256_hex(source.as_bytes()) }],
             ..Self::empty()
         }

@@ -2,6 +2,7 @@
 
 use super::pruning::PruningReport;
 use super::row_states::RowStatesReport;
+use crate::Warning;
 use crate::abstraction::Abstraction;
 use crate::guarantee::Guarantee;
 use crate::model_file::Document;
@@ -156,7 +157,12 @@ impl Manifest {
             prism_lower_bound_note: lower_bound_note(problem),
             samples: problem.noise().samples.len() as u64,
             seed: problem.noise().seed(),
-            warnings: problem.warnings().iter().chain(&abstraction.warnings).cloned().collect(),
+            warnings: problem
+                .warnings()
+                .iter()
+                .chain(&abstraction.warnings)
+                .map(Warning::to_string)
+                .collect(),
             set: vec![],
             inputs: inputs(document, source, problem),
             outputs: vec![],

@@ -8,6 +8,7 @@ mod open;
 mod pruning;
 mod record;
 mod row_states;
+mod solution;
 mod staging;
 mod write;
 
@@ -18,5 +19,6 @@ pub use open::{OpenError, Run};
 pub use pruning::PruningReport;
 pub use record::{RecordError, open_record};
 pub use row_states::RowStatesReport;
+pub use solution::solution_options;
 pub use staging::{RunDirectoryError, Staging};
 pub use write::{NATIVE_MODEL, WriteOptions, write_run};

@@ -3,6 +3,7 @@
 use super::appearance::{NOISE, PROBLEM};
 use super::files::RunFiles;
 use super::manifest::Manifest;
+use super::solution::{solution_options, stored};
 use super::write::NATIVE_MODEL;
 use crate::Diagnostic;
 use crate::abstraction::{Abstraction, AbstractionError};
@@ -13,7 +14,8 @@ use imdp::formats::native::{self, NativeError};
 use imdp::formats::sha256_hex;
 use imdp::progress::Progress;
 use imdp::property::Property;
-use imdp::solver::{Answer, AnswerError, SolverOptions};
+use imdp::solution_file::SolutionFileError;
+use imdp::solver::{Answer, AnswerError, Solution, SolverOptions};
 use serde_json::Value;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -39,7 +41,7 @@ use std::path::{Path, PathBuf};
 /// write_run(&directory, &document, &problem, &abstraction, manifest, WriteOptions::default(), &())?;
 ///
 /// let run = Run::open(&directory, &())?;
-/// let answer = run.solve(&SolverOptions { policy: true, ..SolverOptions::default() })?;
+/// let answer = run.solve(&SolverOptions::default())?;
 /// assert!(answer.lower > 0.99 && answer.solution.policy.is_some());
 /// # Ok(())
 /// # }
@@ -56,6 +58,8 @@ pub struct Run {
     pub problem: Problem,
     /// The model, its targets, the law, and which cell became which state.
     pub abstraction: Abstraction,
+    /// The solution of the task, if it was solved when the run was written.
+    solution: Option<Solution>,
 }
 
 /// Why a directory is no run that can be used.
@@ -114,6 +118,14 @@ pub enum OpenError {
         /// What is wrong with it.
         error: NativeError,
     },
+    /// The solution cannot be read.
+    #[error("{path}: {error}\n  Compile the model again.")]
+    Solution {
+        /// The path of the solution.
+        path: String,
+        /// What is wrong with it.
+        error: SolutionFileError,
+    },
     /// A problem whose actions are inputs has no abstraction any more.
     #[error("{path}: {error}")]
     Inputs {
@@ -166,7 +178,8 @@ impl Run {
         let guarantee = manifest.guarantee.clone();
         let abstraction = Abstraction::reopen(&problem, model, guarantee, progress)
             .map_err(|error| OpenError::Abstraction { path: shown, error })?;
-        Ok(Self { directory: directory.to_path_buf(), manifest, document, problem, abstraction })
+        let solution = stored(&files, &abstraction.property, &abstraction.model)?;
+        Ok(Self { directory: directory.to_path_buf(), manifest, document, problem, abstraction, solution })
     }
 
     /// The task as a property of the model.
@@ -174,12 +187,18 @@ impl Run {
         &self.abstraction.property
     }
 
-    /// Solves the task; the same bounds and policy for the same directory and options.
+    /// The solution of the task with its policy, and with the values of earlier steps that [`solution_options`] asks for.
+    ///
+    /// It is the one that the run holds, or else it is computed: the same bounds and policy in both cases.
     ///
     /// # Errors
     /// [`AnswerError`] if the options make no sense.
     pub fn solve(&self, options: &SolverOptions<'_>) -> Result<Answer, AnswerError> {
-        Answer::new(&self.abstraction.model, self.property(), options)
+        let (model, property) = (&self.abstraction.model, self.property());
+        match &self.solution {
+            Some(solution) => Answer::of_solution(model, property, solution.clone()),
+            None => Answer::new(model, property, &solution_options(&self.problem, options)),
+        }
     }
 }
 

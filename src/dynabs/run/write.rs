@@ -1,8 +1,9 @@
 //! Writing all files of a run.
 
-use super::appearance::{NOISE, PROBLEM};
+use super::appearance::{NOISE, PROBLEM, SOLUTION};
 use super::manifest::Manifest;
 use super::row_states::RowStatesReport;
+use super::solution::is_final;
 use super::staging::{RunDirectoryError, Staging};
 use crate::abstraction::Abstraction;
 use crate::model_file::Document;
@@ -11,18 +12,22 @@ use imdp::formats::row_states::RowStates;
 use imdp::formats::umb::Compression;
 use imdp::formats::{Encoding, Format, ModelWriter, native};
 use imdp::progress::Progress;
+use imdp::solution_file;
+use imdp::solver::Solution;
 use std::io::Write;
 use std::path::Path;
 
 /// What to write and what may be replaced.
 #[derive(Clone, Debug, Default)]
-pub struct WriteOptions {
+pub struct WriteOptions<'a> {
     /// The formats to write the model in, besides the native one.
     pub formats: Vec<Format>,
     /// How choices are written in these formats; files with row states are called `rows` and not `model`.
     pub encoding: Encoding,
     /// Replace an earlier run.
     pub force: bool,
+    /// The solution of the task, if it is known: with its policy it is kept, so that nobody need solve again.
+    pub solution: Option<&'a Solution>,
 }
 
 /// The name of the native model in a run's directory.
@@ -40,7 +45,7 @@ pub fn write_run(
     problem: &Problem,
     abstraction: &Abstraction,
     mut manifest: Manifest,
-    options: WriteOptions,
+    options: WriteOptions<'_>,
     progress: &dyn Progress,
 ) -> Result<Manifest, RunDirectoryError> {
     let model = &abstraction.model;
@@ -71,6 +76,11 @@ pub fn write_run(
         manifest.row_states = Some(RowStatesReport::new(encoded, property));
     }
     staging.write(NATIVE_MODEL, |out| native::write(model, out))?;
+    if let Some(solution) = options.solution.filter(|solution| is_final(solution)) {
+        let model = staging.files().iter().find(|file| file.name == NATIVE_MODEL);
+        let sha256 = model.map_or_else(String::new, |file| file.sha256.clone());
+        staging.write(SOLUTION, |out| solution_file::write(&abstraction.property, &sha256, solution, out))?;
+    }
     staging.write("model.props", |out| writeln!(out, "{}", abstraction.property))?;
     staging.write(PROBLEM, |out| out.write_all(self_contained(document, problem).as_bytes()))?;
     staging.write(NOISE, |out| match problem.noise().file() {

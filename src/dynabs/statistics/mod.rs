@@ -6,8 +6,10 @@
 mod binomial;
 mod budget;
 mod clopper_pearson;
+mod independence;
 mod reference;
 
 pub use budget::{Allocation, BudgetError, ConfidenceBudget, Grant};
 pub use clopper_pearson::{lower_bound, upper_bound};
+pub use independence::{Departure, Trend, departures};
 pub use reference::ReferenceIntervals;

@@ -9,10 +9,10 @@ use num_traits::{Signed, Zero};
 
 /// An affine function `v = M d + N x + c` of target and state, with coefficients rounded to doubles.
 #[derive(Clone, Debug)]
-struct AffineMap {
-    target: ExactMatrix,
-    state: ExactMatrix,
-    constant: ExactMatrix,
+pub(super) struct AffineMap {
+    pub(super) target: ExactMatrix,
+    pub(super) state: ExactMatrix,
+    pub(super) constant: ExactMatrix,
 }
 
 /// A half-space condition `α·d + γ·x ≤ β` on target `d` and state `x`.
@@ -39,7 +39,7 @@ pub struct SteeringConstraint {
 /// they are: [`steering_error`](Self::steering_error) says how far `A x + B u + q` can be from `d`.
 #[derive(Clone, Debug)]
 pub struct FeedbackLaw {
-    input: AffineMap,
+    pub(super) input: AffineMap,
     /// The abstract input `u′`, for two layers.
     abstract_input: Option<AffineMap>,
     system: LinearSystem,
@@ -68,13 +68,13 @@ impl AffineMap {
     }
 
     /// Per row, a bound on the rounding error of evaluating the map in doubles, in any order.
-    fn evaluation_error(&self, extent: &Extent) -> Vec<f64> {
+    pub(super) fn evaluation_error(&self, extent: &Extent) -> Vec<f64> {
         let factor = rounding_factor(2 * self.target.columns() + 2);
         self.magnitudes(extent).iter().map(|magnitude| factor * magnitude).collect()
     }
 
     /// Per row, `|M| |d| + |N| |x| + |c|`.
-    fn magnitudes(&self, extent: &Extent) -> Vec<f64> {
+    pub(super) fn magnitudes(&self, extent: &Extent) -> Vec<f64> {
         (0..self.target.rows())
             .map(|i| {
                 absolute_product(&self.target, i, &extent.target)
@@ -194,7 +194,7 @@ fn rounded(m: &ExactMatrix) -> ExactMatrix {
 }
 
 /// `Σ_j |m_ij| v_j` for `v ≥ 0`, rounded to nearest.
-fn absolute_product(m: &ExactMatrix, i: usize, v: &[f64]) -> f64 {
+pub(super) fn absolute_product(m: &ExactMatrix, i: usize, v: &[f64]) -> f64 {
     v.iter().enumerate().map(|(j, v)| to_f64_up(&m.get(i, j).abs()) * v).sum()
 }
 

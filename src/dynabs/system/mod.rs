@@ -11,6 +11,7 @@ mod interval;
 mod law;
 mod linear_system;
 mod mode;
+mod partial_image;
 mod riccati;
 mod two_layer;
 
@@ -21,5 +22,6 @@ pub use interval::Interval;
 pub use law::{Extent, FeedbackLaw, SteeringConstraint, decimal_gain, lower_layer_violation};
 pub use linear_system::LinearSystem;
 pub use mode::Mode;
+pub use partial_image::PartialImage;
 pub use riccati::{Lqr, RiccatiError, spectral_radius};
 pub use two_layer::TwoLayer;

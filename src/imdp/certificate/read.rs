@@ -3,8 +3,8 @@
 use super::{Certificate, Evidence, FileDigest, Inductive, Step};
 use super::{CertificateError, FIRST_LINE};
 use crate::files;
+use crate::formats::sha256_hex;
 use crate::model::{StateId, require_memory};
-use sha2::{Digest, Sha256};
 use std::path::Path;
 use std::str::FromStr;
 
@@ -37,7 +37,7 @@ pub fn read(bytes: &[u8]) -> Result<Certificate, CertificateError> {
     let (content, last) = (&bytes[..last], &lines[last..]);
     let digest = last.strip_prefix(b"end ").filter(|digest| digest.len() == 64);
     let digest = digest.ok_or(CertificateError::Truncated)?;
-    let found: String = Sha256::digest(content).iter().map(|byte| format!("{byte:02x}")).collect();
+    let found = sha256_hex(content);
     if found.as_bytes() != digest {
         return Err(CertificateError::Digest);
     }

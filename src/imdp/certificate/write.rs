@@ -4,6 +4,7 @@ use super::FIRST_LINE;
 use super::{Certificate, Evidence};
 use crate::model::StateId;
 use crate::numeric::shortest_decimal;
+use data_encoding::HEXLOWER;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -39,7 +40,7 @@ pub fn write(certificate: &Certificate, out: &mut impl Write) -> io::Result<()> 
             out.list("ranks", &inductive.ranks, u32::to_string)?;
         }
     }
-    let digest: String = out.hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+    let digest = HEXLOWER.encode(&out.hash.finalize());
     writeln!(out.out, "end {digest}")
 }
 

@@ -1,7 +1,7 @@
 //! Sets of states, compared state by state.
 
 use super::{DiffOptions, Section};
-use crate::model::{IntervalMdp, StateSet, VariableValues};
+use crate::model::{IntervalMdp, StateId, StateSet, VariableValues};
 
 /// Labels, initial states, deadlocks and variables of two models.
 pub(super) fn diff_labels(left: &IntervalMdp, right: &IntervalMdp, options: &DiffOptions) -> Section {
@@ -13,7 +13,16 @@ pub(super) fn diff_labels(left: &IntervalMdp, right: &IntervalMdp, options: &Dif
             VariableValues::Int(_) => None,
         });
         let initial = ("label \"init\"".to_owned(), model.initial().clone());
-        labels.chain([initial]).chain(flags).collect()
+        // A label that no state has says nothing, whether it is declared or not; states without choices are deadlocks.
+        let said = labels.filter(|(name, set)| !set.is_clear() && name != "label \"init\"");
+        let deadlock = model.labels().get("deadlock").is_none().then(|| {
+            let without = |s: &usize| model.choices().is_deadlock(*s as StateId);
+            let mut set = StateSet::with_capacity(model.num_states());
+            set.extend((0..model.num_states()).filter(without));
+            ("label \"deadlock\"".to_owned(), set)
+        });
+        let deadlock = deadlock.filter(|(_, set)| !set.is_clear());
+        said.chain([initial]).chain(deadlock).chain(flags).collect()
     };
     let (left_sets, right_sets) = (all(left), all(right));
     for (name, a) in &left_sets {

@@ -2,8 +2,8 @@
 
 use super::{CompareError, PolicyFile, Record, RecordedResult, Reference, Sizes, Values};
 use crate::files;
-use crate::formats::Format;
-use crate::property::{Property, parse_properties};
+use crate::formats::{Format, bmdp};
+use crate::property::{Definitions, Entry, Inquiry, Property, parse_document};
 use serde::Deserialize;
 use serde_json::Value;
 use std::io;
@@ -27,7 +27,10 @@ pub fn open(path: &Path) -> Result<Record, CompareError> {
         return Err(CompareError::Missing { path: name });
     } else {
         match path.extension().and_then(|extension| extension.to_str()) {
-            _ if Format::of_path(path).is_some() => open_model(path)?,
+            // A .txt file may be anything; those of bmdp-tool begin with a number.
+            _ if Format::of_path(path).is_some_and(|format| format != Format::Bmdp || bmdp::begins(path)) => {
+                open_model(path)?
+            }
             Some("json") => open_json(path)?,
             _ => {
                 let expected = "a directory, or a file that ends in .tra, .drn, .umb, .dynabs or .json";
@@ -94,7 +97,14 @@ fn open_model(path: &Path) -> Result<Record, CompareError> {
 
 fn read_properties(path: &Path) -> Result<Vec<Property>, CompareError> {
     let refuse = |error| CompareError::Properties { path: path.display().to_string(), error };
-    parse_properties(&read(path)?).map_err(refuse)
+    let entries = parse_document(&read(path)?, &mut Definitions::default());
+    let single = |entry: Entry| match entry.inquiry {
+        Ok(Inquiry::Probability(property)) => Some(Ok(property)),
+        // What is not about one probability is not compared.
+        Ok(Inquiry::Compound(_)) => None,
+        Err(error) => Some(Err(refuse(error))),
+    };
+    entries.into_iter().filter_map(single).collect()
 }
 
 /// What `dynabs-check solve --json` prints, as far as it is compared.
@@ -103,7 +113,7 @@ struct ResultsFile {
     states: Option<u64>,
     choices: Option<u64>,
     transitions: Option<u64>,
-    results: Vec<RecordedResult>,
+    results: Vec<Value>,
 }
 
 fn open_json(path: &Path) -> Result<Record, CompareError> {
@@ -118,7 +128,17 @@ fn open_json(path: &Path) -> Result<Record, CompareError> {
             }
             _ => None,
         };
-        return Ok(Record { sizes, results: file.results, ..Record::default() });
+        // Formulas have no value, and infinite ones have no number: they are not compared.
+        let has_numbers = |result: &Value| result["lower"].is_number() && result["upper"].is_number();
+        let is_other = |bound: &Value| bound.is_null() || bound.is_string();
+        let mut results = vec![];
+        for result in file.results {
+            if has_numbers(&result) || !is_other(&result["lower"]) || result.get("lower").is_none() {
+                let read = serde_json::from_value::<RecordedResult>(result);
+                results.push(read.map_err(|error| unusable(path, error.to_string(), EXPECTED))?);
+            }
+        }
+        return Ok(Record { sizes, results, ..Record::default() });
     }
     let reference: Reference = parse(path, &text, EXPECTED)?;
     reference.check().map_err(|found| unusable(path, found, "a complete reference file of version 1"))?;

@@ -5,7 +5,8 @@ use super::process::{Ended, RunLimits, run};
 use super::values::parse_values;
 use super::{Engine, EngineAnswer, EngineFailure, EngineMissing, EngineQuestion, Reply, Strategy, Subject};
 use crate::files::StagedDirectory;
-use crate::formats::prism::{TraWriter, write_lab, write_sta};
+use crate::formats::prism::{TraWriter, check_names, write_lab, write_sta};
+use crate::formats::{ChangedName, Names, identifiers};
 use crate::model::{IntervalMdp, ModelKind};
 use crate::property::QueryKind;
 use std::fs::{self, File};
@@ -67,7 +68,7 @@ impl Prism {
         let mut command = Command::new(&self.command);
         command.current_dir(directory).args(["-importmodel", "model.tra,sta,lab", "-ex"]);
         command.args(["-javamaxmem", &format!("{heap}m"), "-epsilon", &EPSILON.to_string()]);
-        command.args(["-maxiters", ITERATIONS, "-pf", &question.value.to_string()]);
+        command.args(["-maxiters", ITERATIONS, "-pf", &renamed(&question.value.to_string(), subject.model)]);
         command.args(["-exportvector", "values.txt"]);
         let decides = !matches!(question.query.kind, QueryKind::Next { .. });
         if decides && subject.model.kind() == ModelKind::Imdp {
@@ -141,7 +142,24 @@ fn link(file: &Path, name: &Path) -> io::Result<()> {
     return fs::copy(file, name).map(drop);
 }
 
+/// What is written instead of names that PRISM does not read.
+fn changed_names(model: &IntervalMdp) -> Option<(IntervalMdp, Vec<ChangedName>)> {
+    check_names(model).err()?;
+    identifiers(model.clone(), Names::Rename).ok()
+}
+
+/// A property with the labels that PRISM's files have.
+fn renamed(property: &str, model: &IntervalMdp) -> String {
+    let names = changed_names(model).map(|(_, names)| names).unwrap_or_default();
+    names.iter().filter(|name| name.kind == "label").fold(property.to_owned(), |text, name| {
+        let written = name.written.as_deref().unwrap_or(&name.name);
+        text.replace(&format!("\"{}\"", name.name), &format!("\"{written}\""))
+    })
+}
+
 fn write_model(model: &IntervalMdp, at: &impl Fn(&str) -> PathBuf) -> io::Result<()> {
+    let changed = changed_names(model);
+    let model = changed.as_ref().map_or(model, |(model, _)| model);
     let tra = TraWriter::new(model);
     super::require_space(&at("tra"), tra.bytes())?;
     let write = |extension: &str, fill: &dyn Fn(&mut BufWriter<File>) -> io::Result<()>| {

@@ -17,7 +17,7 @@ use std::process::Command;
 use std::time::Duration;
 
 /// The program that asks Storm.
-const SCRIPT: &str = include_str!("../../../templates/storm.py");
+const SCRIPT: &str = include_str!("../templates/storm.py");
 /// Storm stops when no value changes by more than this in one iteration.
 const PRECISION: f64 = 1e-13;
 /// How long Python may take to tell whether it has stormpy.

@@ -1,6 +1,7 @@
 //! SHA-256 of what is written, while it is written.
 
 use crate::files;
+use data_encoding::HEXLOWER;
 use sha2::{Digest, Sha256};
 use std::io::{self, BufReader, Write};
 use std::path::Path;
@@ -24,7 +25,7 @@ impl<W: Write> HashingWriter<W> {
 
     /// The writer below, the number of bytes and their SHA-256 in hexadecimal.
     pub fn finish(self) -> (W, u64, String) {
-        (self.inner, self.bytes, to_hex(&self.hash.finalize()))
+        (self.inner, self.bytes, HEXLOWER.encode(&self.hash.finalize()))
     }
 }
 
@@ -57,7 +58,7 @@ impl<W: Write> Write for HashingWriter<W> {
 
 /// The SHA-256 of some bytes, in hexadecimal.
 pub fn sha256_hex(bytes: &[u8]) -> String {
-    to_hex(&Sha256::digest(bytes))
+    HEXLOWER.encode(&Sha256::digest(bytes))
 }
 
 /// The SHA-256 of a file, in hexadecimal.
@@ -68,10 +69,6 @@ pub fn sha256_of_file(path: &Path) -> io::Result<String> {
     let mut writer = HashingWriter::new(io::sink());
     io::copy(&mut BufReader::with_capacity(1 << 16, files::open(path)?.0), &mut writer)?;
     Ok(writer.finish().2)
-}
-
-fn to_hex(digest: &[u8]) -> String {
-    digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]

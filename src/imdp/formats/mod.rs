@@ -18,5 +18,5 @@ pub use encoding::Encoding;
 pub use format::Format;
 pub use hashing::{HashingWriter, sha256_hex, sha256_of_file};
 pub use import::{ImportError, Imported, Place, Position, Warning};
-pub use names::NameError;
+pub use names::{ChangedName, NameError, Names, identifiers};
 pub use writer::{ModelWriter, WriteError};

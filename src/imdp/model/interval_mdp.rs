@@ -225,6 +225,19 @@ impl IntervalMdp {
         .map(|model| Self { rewards: self.rewards.clone(), ..model })
     }
 
+    /// The same model with other names: `change` gets the actions, labels and variables.
+    ///
+    /// # Errors
+    /// Those of [`IntervalMdp::new`].
+    pub fn renamed(
+        mut self,
+        change: impl FnOnce(&mut ActionNames, &mut Labels, &mut StateVariables),
+    ) -> Result<Self, ImdpError> {
+        change(&mut self.parts.actions, &mut self.parts.labels, &mut self.parts.variables);
+        let rewards = self.rewards;
+        Ok(Self { rewards, ..Self::new(self.parts)? })
+    }
+
     /// The same model with these rewards.
     ///
     /// # Errors

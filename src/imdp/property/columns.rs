@@ -33,6 +33,9 @@ pub(super) fn evaluate_integer<'a>(
     type Operation = fn(i64, i64) -> Option<i64>;
     let (operation, left, right): (Operation, _, _) = match expression {
         IntegerExpression::Literal(value) => return Ok(Column::Constant(i64::from(*value))),
+        IntegerExpression::Variable(name) if numbers_states(name, model) => {
+            return Ok(Column::Computed((0..model.num_states() as i64).collect()));
+        }
         IntegerExpression::Variable(name) => {
             return match &variable(name, model)?.values {
                 VariableValues::Int(values) => Ok(Column::Variable(values)),
@@ -49,6 +52,11 @@ pub(super) fn evaluate_integer<'a>(
     };
     let (left, right) = (evaluate_integer(left, model)?, evaluate_integer(right, model)?);
     combine(expression, operation, &left, &right, model)
+}
+
+/// Whether a name is that of the number of a state: `x`, as for PRISM, if the states have no variables.
+pub(crate) fn numbers_states(name: &str, model: &IntervalMdp) -> bool {
+    name == "x" && model.variables().is_empty()
 }
 
 fn combine<'a>(

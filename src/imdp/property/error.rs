@@ -19,6 +19,15 @@ pub enum PropertyError {
         /// What Storm reads.
         storm: &'static str,
     },
+    /// Neither direction is given, but there is something to choose.
+    #[error(
+        "P=? and R=? do not say who maximises and who minimises; write Pmaxmin, Pmaxmax, Pminmin or Pminmax (interval \
+         MDP), or Pmin or Pmax (interval DTMC)"
+    )]
+    NoDirection,
+    /// A weak until with a first step.
+    #[error("W with a first step is not supported; write F, G or U with one, or W without")]
+    LateWeakUntil,
     /// The direction of a policy is given, but there is none.
     #[error("{found} needs a policy, an interval DTMC has none: write {instead}")]
     NoPolicy {

@@ -1,6 +1,6 @@
 //! The states in which a formula holds.
 
-use super::columns::{Column, evaluate_integer};
+use super::columns::{Column, evaluate_integer, numbers_states};
 use super::{IntegerExpression, PropertyError, Relation, StateFormula, closest_name::closest_name};
 use crate::model::{IntervalMdp, StateId, StateSet, StateVariable, VariableValues};
 
@@ -132,6 +132,9 @@ fn boolean<'a>(
     model: &'a IntervalMdp,
 ) -> Result<Option<&'a StateSet>, PropertyError> {
     let IntegerExpression::Variable(name) = expression else { return Ok(None) };
+    if numbers_states(name, model) {
+        return Ok(None);
+    }
     Ok(match &variable(name, model)?.values {
         VariableValues::Bool(states) => Some(states),
         VariableValues::Int(_) => None,

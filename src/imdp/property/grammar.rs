@@ -1,14 +1,14 @@
 //! PRISM's grammar of expressions.
 //!
-//! From the weakest operator to the strongest, as in `PrismParser.jj`: `U` (once), `X F G`, `=>` (to the
-//! right), `<=>`, `|`, `&`, `!`, `= !=`, `< <= > >=`, `+ -`, `*`, unary minus. A temporal operator inside
+//! From the weakest operator to the strongest, as in `PrismParser.jj`: `U W R` (once), `X F G`, `?:` (to the
+//! right), `=>` (to the
+//! right), `<=>`, `|`, `&`, `!`, `= !=`, `< <= > >=`, `+ -`, `* /`, unary minus. A temporal operator inside
 //! of another expression needs parentheses.
 
 use super::lexer::TokenKind;
 use super::parser::{Parser, Result};
-use super::tree::{BinaryOperator, Node, NodeKind, TemporalOperator};
-use super::unsupported;
-use super::{ParseErrorKind, Relation};
+use super::tree::{BinaryOperator, Node, NodeKind, StepBound, StepBounds, TemporalOperator, UntilOperator};
+use super::{Relation, unsupported};
 
 // How tightly operators bind.
 const IMPLIES: u8 = 0;
@@ -26,18 +26,17 @@ impl Parser<'_> {
     /// An expression that may be a path formula.
     pub(super) fn path_expression(&mut self) -> Result<Node> {
         let left = self.temporal_unary()?;
-        match self.peek() {
-            TokenKind::Word("U") => {
-                self.advance();
-                let steps = self.step_bound()?;
-                let right = self.temporal_unary()?;
-                let span = left.span.to(right.span);
-                self.node(NodeKind::Until(steps, Box::new(left), Box::new(right)), span)
-            }
-            TokenKind::Word("W") => Err(self.error(unsupported::WEAK_UNTIL)),
-            TokenKind::Word("R") => Err(self.error(unsupported::RELEASE)),
-            _ => Ok(left),
-        }
+        let operator = match self.peek() {
+            TokenKind::Word("U") => UntilOperator::Until,
+            TokenKind::Word("W") => UntilOperator::Weak,
+            TokenKind::Word("R") => UntilOperator::Release,
+            _ => return Ok(left),
+        };
+        self.advance();
+        let steps = self.step_bounds()?;
+        let right = self.temporal_unary()?;
+        let span = left.span.to(right.span);
+        self.node(NodeKind::Until(operator, steps, Box::new([left, right])), span)
     }
 
     fn temporal_unary(&mut self) -> Result<Node> {
@@ -50,8 +49,8 @@ impl Parser<'_> {
         };
         self.advance();
         let bound = self.span();
-        let steps = self.step_bound()?;
-        if operator == TemporalOperator::Next && steps.is_some() {
+        let steps = self.step_bounds()?;
+        if operator == TemporalOperator::Next && !steps.is_none() {
             return Err(self.error_at(bound, unsupported::NEXT_BOUND));
         }
         let operand = self.nested(Self::temporal_unary)?;
@@ -61,37 +60,49 @@ impl Parser<'_> {
 
     /// An expression that is no path formula.
     pub(super) fn expression(&mut self) -> Result<Node> {
-        let node = self.binary(IMPLIES)?;
-        match self.peek() {
-            TokenKind::Symbol("?") => Err(self.error(unsupported::CONDITIONAL)),
-            _ => Ok(node),
+        let condition = self.binary(IMPLIES)?;
+        if !self.accept("?") {
+            return Ok(condition);
         }
+        let then = self.nested(Self::expression)?;
+        self.expect(":", "`:` and what holds otherwise")?;
+        let otherwise = self.nested(Self::expression)?;
+        let span = condition.span.to(otherwise.span);
+        self.node(NodeKind::Conditional(Box::new([condition, then, otherwise])), span)
     }
 
-    /// `<=k` or `<k`, as the number of steps.
-    fn step_bound(&mut self) -> Result<Option<u64>> {
-        let least = match self.peek() {
-            TokenKind::Symbol("<=") => 0,
-            TokenKind::Symbol("<") => 1,
-            TokenKind::Symbol(">=" | ">" | "=") => return Err(self.error(unsupported::LOWER_STEP_BOUND)),
-            TokenKind::Symbol("[") => return Err(self.error(unsupported::STEP_INTERVAL)),
-            _ => return Ok(None),
-        };
+    /// `<=k`, `<k`, `>=k`, `>k`, `=k` or `[a,b]`, if one of them comes next.
+    fn step_bounds(&mut self) -> Result<StepBounds> {
+        let TokenKind::Symbol(symbol) = self.peek() else { return Ok(StepBounds::default()) };
+        let mut bounds = StepBounds::default();
+        match symbol {
+            "<=" | "<" | ">=" | ">" => {
+                let bound = self.step_bound(matches!(symbol, "<" | ">"))?;
+                let slot = if symbol.starts_with('<') { &mut bounds.upper } else { &mut bounds.lower };
+                *slot = Some(Box::new(bound));
+            }
+            "=" => {
+                let bound = Box::new(self.step_bound(false)?);
+                (bounds.lower, bounds.upper) = (Some(bound.clone()), Some(bound));
+            }
+            "[" => {
+                bounds.lower = Some(Box::new(self.step_bound(false)?));
+                if self.peek() != TokenKind::Symbol(",") {
+                    return Err(self.unexpected("`,` and the last step"));
+                }
+                bounds.upper = Some(Box::new(self.step_bound(false)?));
+                self.expect("]", "`]`")?;
+            }
+            _ => {}
+        }
+        Ok(bounds)
+    }
+
+    /// What follows the symbol that comes next. As in PRISM, it takes what it can: `F<=8 -x=1` is bounded by `8-x`.
+    pub(super) fn step_bound(&mut self, is_strict: bool) -> Result<StepBound> {
         self.advance();
-        if let TokenKind::Word(_) = self.peek() {
-            return Err(self.error(unsupported::CONSTANT_BOUND));
-        }
-        // As in PRISM, the bound takes what it can: `F<=8 -x=1` is bounded by `8-x`.
-        let bound = self.nested(|parser| parser.binary(SUM))?;
-        match constant(&bound) {
-            Some(steps) if (least..=i64::from(i32::MAX)).contains(&steps) => {
-                Ok(u64::try_from(steps - least).ok())
-            }
-            _ => {
-                let found = self.text(bound.span).to_owned();
-                Err(self.error_at(bound.span, ParseErrorKind::Steps { least: least as u8, found }))
-            }
-        }
+        let steps = self.nested(|parser| parser.binary(SUM))?;
+        Ok(StepBound { steps, is_strict })
     }
 
     /// Operators that bind at least as tightly as `level`.
@@ -145,7 +156,7 @@ impl Parser<'_> {
             "+" => (Infix::Binary(BinaryOperator::Add), SUM),
             "-" => (Infix::Binary(BinaryOperator::Subtract), SUM),
             "*" => (Infix::Binary(BinaryOperator::Multiply), PRODUCT),
-            "/" => return Err(self.error(unsupported::DIVISION)),
+            "/" => (Infix::Binary(BinaryOperator::Divide), PRODUCT),
             "^" => return Err(self.error(unsupported::POWER)),
             _ => return Ok(None),
         }))
@@ -178,22 +189,4 @@ enum Infix {
     /// `&` or `|`.
     Chain,
     Binary(BinaryOperator),
-}
-
-/// The value of an expression without variables.
-fn constant(node: &Node) -> Option<i64> {
-    match &node.kind {
-        NodeKind::Integer(value) => Some(i64::from(*value)),
-        NodeKind::Negate(operand) => constant(operand)?.checked_neg(),
-        NodeKind::Binary(operator, left, right) => {
-            let (left, right) = (constant(left)?, constant(right)?);
-            match operator {
-                BinaryOperator::Add => left.checked_add(right),
-                BinaryOperator::Subtract => left.checked_sub(right),
-                BinaryOperator::Multiply => left.checked_mul(right),
-                _ => None,
-            }
-        }
-        _ => None,
-    }
 }

@@ -29,6 +29,10 @@
 
 mod closest_name;
 mod columns;
+mod compound;
+mod constant;
+mod definitions;
+mod document;
 mod error;
 mod evaluate;
 mod grammar;
@@ -41,23 +45,36 @@ mod path_formula;
 mod probability;
 mod query;
 mod question;
+mod read;
 mod resolution;
+mod simple;
 mod state_formula;
 mod threshold;
 mod tree;
 mod typing;
 mod unsupported;
 
+pub use compound::Compound;
+pub use definitions::Definitions;
+pub use document::{Entry, Inquiry, parse_document};
 pub use error::PropertyError;
 pub use integer_expression::IntegerExpression;
 pub use parse_error::{ParseError, ParseErrorKind, TextPosition};
 pub use path_formula::PathFormula;
 pub use query::{Query, QueryKind};
 pub use question::{Objective, Property, Question};
+pub use read::{parse_inquiry, parse_properties, parse_property};
 pub use resolution::{Optimum, Resolution};
 pub use state_formula::{Relation, StateFormula};
 pub use threshold::{Probability, ProbabilityError, Threshold, ThresholdComparison, Verdict};
-pub use typing::{parse_properties, parse_property};
+
+pub(crate) use columns::numbers_states;
+pub(crate) use constant::{Constant, arithmetic, call, constant};
+pub(crate) use simple::{formula, is_formula};
+pub(crate) use tree::{
+    Asked, BinaryOperator, Filter, FilterOperator, Function, Measured, Node, NodeKind, Operator, RewardPath,
+    StepBound, StepBounds, Structure, TemporalOperator, UntilOperator,
+};
 
 #[cfg(test)]
 mod tests;

@@ -54,6 +54,28 @@ pub enum ParseErrorKind {
         /// What was written.
         found: String,
     },
+    /// A constant is declared, but has no value.
+    #[error(
+        "the constant {name} has no value; give it one, as in --const {name}=VALUE, or in the file: const {name} = VALUE;"
+    )]
+    Undefined {
+        /// The constant.
+        name: String,
+    },
+    /// A function has too many or too few arguments.
+    #[error(
+        "expected two or more arguments of min and max, two of mod and pow, one of floor, ceil and round, found {found}"
+    )]
+    Arguments {
+        /// How many there are.
+        found: usize,
+    },
+    /// The last step comes before the first.
+    #[error("the steps end before they begin, found {found}")]
+    EmptyRange {
+        /// First and last step.
+        found: String,
+    },
     /// The bound of an operator is not a number of steps.
     #[error("a step bound is a whole number from {least} to 2147483647, found {found}")]
     Steps {
@@ -84,7 +106,7 @@ pub enum ParseErrorKind {
 
 /// The bytes `start..end` of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Span {
+pub(crate) struct Span {
     pub(super) start: usize,
     pub(super) end: usize,
 }

@@ -46,6 +46,30 @@ impl<'a> Parser<'a> {
         &self.source[span.start..span.end]
     }
 
+    /// The text from `start` to the end of the last token that was read.
+    pub(super) fn text_from(&self, start: usize) -> &'a str {
+        &self.source[start..self.previous_end().max(start)]
+    }
+
+    /// Where the last token that was read ends.
+    pub(super) fn previous_end(&self) -> usize {
+        self.next.checked_sub(1).map_or(0, |last| self.tokens[last.min(self.tokens.len() - 1)].span.end)
+    }
+
+    /// The whole text.
+    pub(super) fn whole(&self) -> Span {
+        Span { start: 0, end: self.source.len() }
+    }
+
+    pub(super) fn at_end(&self) -> bool {
+        self.peek() == TokenKind::End
+    }
+
+    /// An error about what starts at `start`.
+    pub(super) fn error_from(&self, start: usize, kind: ParseErrorKind) -> ParseError {
+        self.error_at(Span { start, end: self.previous_end().max(start) }, kind)
+    }
+
     pub(super) fn advance(&mut self) {
         self.next += 1;
     }
@@ -94,16 +118,75 @@ impl<'a> Parser<'a> {
         Ok(node)
     }
 
-    /// `"name":`, if it comes next.
-    pub(super) fn property_name(&mut self) -> Option<&'a str> {
+    /// The inside of a name in quotes, if one comes next, whatever it is made of.
+    pub(super) fn quoted(&mut self) -> Option<Span> {
         let quote = TokenKind::Symbol("\"");
-        let TokenKind::Word(name) = self.token(1).kind else { return None };
-        let kinds = [0, 2, 3].map(|ahead| self.token(ahead).kind);
-        if kinds != [quote, quote, TokenKind::Symbol(":")] {
+        if self.peek() != quote {
             return None;
         }
-        self.next += 4;
-        Some(name)
+        let start = self.span().end;
+        let length = self.source[start..].find(['"', '\n', '\r'])?;
+        let end = start + length;
+        if length == 0 || !self.source[end..].starts_with('"') {
+            return None;
+        }
+        // Tokens may reach over the closing quote only if they are one: it is a symbol of its own.
+        let closing = self.tokens[self.next + 1..].iter().position(|token| token.span.start >= end)?;
+        let closing = self.next + 1 + closing;
+        if self.tokens[closing].kind != quote || self.tokens[closing].span.start != end {
+            return None;
+        }
+        self.next = closing + 1;
+        Some(Span { start, end })
+    }
+
+    /// `"name":`, if it comes next.
+    pub(super) fn property_name(&mut self) -> Option<&'a str> {
+        let start = self.next;
+        let name = self.quoted();
+        if self.accept(":")
+            && let Some(name) = name
+        {
+            return Some(self.text(name));
+        }
+        self.next = start;
+        None
+    }
+
+    /// The number of the next token.
+    pub(super) fn position(&self) -> usize {
+        self.next
+    }
+
+    /// Skips what is left of a broken item that began at token `first`: up to behind the next `;`, or to what looks like
+    /// the next item at the beginning of a line.
+    pub(super) fn recover(&mut self, first: usize) {
+        self.nesting = 0;
+        while self.next == first || !self.begins_item() {
+            match self.peek() {
+                TokenKind::End => return,
+                TokenKind::Symbol(";") => {
+                    self.advance();
+                    return;
+                }
+                _ => self.advance(),
+            }
+        }
+    }
+
+    /// Whether the next token is the first of its line and looks like the beginning of a definition or a property.
+    fn begins_item(&self) -> bool {
+        let before = &self.source[..self.span().start];
+        let line = before.rsplit('\n').next().unwrap_or_default();
+        let fits = match self.peek() {
+            TokenKind::Word("const" | "label" | "formula" | "filter") => true,
+            TokenKind::Word(word) => {
+                word.starts_with(['P', 'R']) && (word.len() == 1 || word[1..].starts_with('m'))
+            }
+            TokenKind::Symbol(symbol) => symbol == "\"" || symbol == "(",
+            _ => false,
+        };
+        fits && line.trim().is_empty() && before.contains('\n')
     }
 
     /// An error about an expression of the wrong kind.

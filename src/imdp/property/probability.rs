@@ -1,36 +1,37 @@
-//! The operator `P`, and thresholds.
+//! The operators `P` and `R`.
 
 use super::lexer::TokenKind;
-use super::parse_error::Span;
 use super::parser::{Parser, Result};
-use super::tree::{Asked, Node, NodeKind};
-use super::{
-    Optimum, ParseErrorKind, Probability, ProbabilityError, Relation, Threshold, ThresholdComparison,
-    unsupported,
-};
+use super::tree::{Asked, Measured, Node, NodeKind, Operator, RewardPath, StepBound, Structure};
+use super::{Optimum, ThresholdComparison, unsupported};
 
 impl Parser<'_> {
-    /// `P… [ path ]`
-    pub(super) fn probability(&mut self) -> Result<Node> {
+    /// `P… [ path ]` or `R… [ … ]`
+    pub(super) fn operator(&mut self) -> Result<Node> {
         let start = self.span();
-        let asked = self.asked()?;
+        let is_reward = matches!(self.peek(), TokenKind::Word(word) if word.starts_with('R'));
+        let (structure, asked) = self.asked(is_reward)?;
         self.expect("[", "`[` and a path formula")?;
-        let path = self.nested(Self::path_expression)?;
+        let measured = match is_reward {
+            true => Measured::Reward(structure, self.reward_path()?),
+            false => Measured::Probability(self.nested(Self::path_expression)?),
+        };
         let span = start.to(self.span());
         if self.peek() == TokenKind::Symbol("{") {
-            return Err(self.error(unsupported::FILTER));
+            return Err(self.error(unsupported::OLD_FILTER));
         }
         self.expect("]", "`]` or an operator")?;
-        self.node(NodeKind::Probability(Box::new(asked), Box::new(path)), span)
+        self.node(NodeKind::Operator(Box::new(Operator { asked, measured })), span)
     }
 
     /// What stands in front of the path formula. PRISM allows blanks, as in `P max min=?`.
-    fn asked(&mut self) -> Result<Asked> {
+    fn asked(&mut self, is_reward: bool) -> Result<(Structure, Asked)> {
         let mut suffix = String::new();
         if let TokenKind::Word(word) = self.peek() {
             suffix.push_str(&word[1..]);
         }
         self.advance();
+        let structure = if is_reward { self.structure()? } else { Structure::First };
         while let TokenKind::Word(word @ ("min" | "max" | "minmin" | "minmax" | "maxmin" | "maxmax")) =
             self.peek()
         {
@@ -39,64 +40,78 @@ impl Parser<'_> {
         }
         match self.peek() {
             TokenKind::Symbol("(") => Err(self.error(unsupported::MODIFIER)),
-            TokenKind::Symbol("=") if suffix.is_empty() => Err(self.error(unsupported::NO_DIRECTION)),
             TokenKind::Symbol(symbol @ (">=" | ">" | "<=" | "<")) => {
                 if !suffix.is_empty() {
                     return Err(self.error(unsupported::BOUNDED_OPTIMUM));
                 }
-                self.advance();
-                self.bound(symbol).map(Asked::ForAll)
+                let comparison = match symbol {
+                    ">=" => ThresholdComparison::AtLeast,
+                    ">" => ThresholdComparison::Above,
+                    "<=" => ThresholdComparison::AtMost,
+                    _ => ThresholdComparison::Below,
+                };
+                let StepBound { steps: threshold, .. } = self.step_bound(false)?;
+                Ok((structure, Asked::ForAll(comparison, threshold)))
             }
             _ => {
-                let optimum = Optimum::from_suffix(&suffix).ok_or_else(|| {
-                    self.unexpected("Pmaxmin, Pmaxmax, Pminmin, Pminmax, Pmin, Pmax or P>=p")
-                })?;
+                let optimum = match suffix.as_str() {
+                    "" if self.peek() == TokenKind::Symbol("=") => Optimum::Only,
+                    suffix => Optimum::from_suffix(suffix).ok_or_else(|| {
+                        self.unexpected(
+                            "Pmaxmin, Pmaxmax, Pminmin, Pminmax, Pmin, Pmax or P>=p (or R likewise)",
+                        )
+                    })?,
+                };
                 self.expect("=", "`=?`")?;
                 self.expect("?", "`=?`")?;
-                Ok(Asked::Value(optimum))
+                Ok((structure, Asked::Value(optimum)))
             }
         }
     }
 
-    /// The decimal of `P>=p [`.
-    fn bound(&mut self, symbol: &str) -> Result<Threshold> {
-        let comparison = match symbol {
-            ">=" => ThresholdComparison::AtLeast,
-            ">" => ThresholdComparison::Above,
-            "<=" => ThresholdComparison::AtMost,
-            _ => ThresholdComparison::Below,
-        };
-        let number = match self.peek() {
-            TokenKind::Number(_) => self.span(),
-            TokenKind::Symbol("-") => self.span().to(self.token(1).span),
-            _ => return Err(self.unexpected("a probability such as 0.95")),
-        };
-        let probability = self.threshold(number)?;
-        self.advance();
-        if self.peek() != TokenKind::Symbol("[") {
-            return Err(self.unexpected("`[` (a threshold is a single decimal, such as 0.95)"));
+    /// `{"name"}` or `{number}`, if it comes next.
+    fn structure(&mut self) -> Result<Structure> {
+        if !self.accept("{") {
+            return Ok(Structure::First);
         }
-        Ok(Threshold { comparison, probability })
+        let structure = match self.peek() {
+            TokenKind::Symbol("\"") => match self.quoted() {
+                Some(span) => Structure::Name(self.text(span).to_owned()),
+                None => return Err(self.unexpected("the name of a reward structure and `\"`")),
+            },
+            _ => Structure::Number(self.nested(Self::expression)?),
+        };
+        self.expect("}", "`}`")?;
+        Ok(structure)
     }
 
-    /// The probability that stands at `span`.
-    fn threshold(&self, span: Span) -> Result<Probability> {
-        let text = self.text(span);
-        Probability::parse(text).map_err(|error| {
-            let error = if text.starts_with('-') { ProbabilityError::Range } else { error };
-            self.error_at(span, ParseErrorKind::Threshold { error, found: text.to_owned() })
-        })
-    }
-
-    /// The threshold of `(P…)<comparison><number>`.
-    pub(super) fn verdict_threshold(&self, comparison: Relation, number: &Node) -> Result<Threshold> {
-        let comparison = ThresholdComparison::from_comparison(comparison)
-            .ok_or_else(|| self.wrong_kind(number, "one of >=, >, <= and < before a threshold"))?;
-        match number.kind {
-            NodeKind::Integer(_) | NodeKind::Decimal | NodeKind::Negate(_) => {
-                Ok(Threshold { comparison, probability: self.threshold(number.span)? })
+    /// What stands in the brackets of `R`.
+    fn reward_path(&mut self) -> Result<RewardPath> {
+        match (self.peek(), self.token(1).kind) {
+            (TokenKind::Word("C"), _) => {
+                self.advance();
+                let mut bound = None;
+                if let TokenKind::Symbol(symbol @ ("<=" | "<")) = self.peek() {
+                    bound = Some(self.step_bound(symbol == "<")?);
+                }
+                let mut discount = None;
+                if self.accept(",") {
+                    match self.peek() {
+                        TokenKind::Word("discount") => self.advance(),
+                        _ => return Err(self.unexpected("discount=0.9 or the like")),
+                    }
+                    self.expect("=", "`=` and a factor between 0 and 1")?;
+                    discount = Some(self.nested(Self::expression)?);
+                }
+                Ok(RewardPath::Cumulative(bound, discount))
             }
-            _ => Err(self.wrong_kind(number, "a threshold that is a single decimal, such as 0.95")),
+            (TokenKind::Word("I"), TokenKind::Symbol("=")) => {
+                self.advance();
+                let StepBound { steps, .. } = self.step_bound(false)?;
+                Ok(RewardPath::Instantaneous(steps))
+            }
+            (TokenKind::Word("S"), TokenKind::Symbol("]")) => Err(self.error(unsupported::STEADY)),
+            _ => Ok(RewardPath::Reach(self.nested(Self::path_expression)?)),
         }
     }
 }

@@ -79,32 +79,14 @@ impl Property {
     /// by different tools; [`PropertyError::NoPolicy`] for the four-letter forms of an interval DTMC.
     pub fn resolve(&self, kind: ModelKind) -> Result<Objective, PropertyError> {
         let (resolution, threshold) = match &self.question {
-            Question::Value(optimum) => (resolve_optimum(*optimum, kind)?, None),
-            Question::Verdict(optimum, threshold) => (resolve_optimum(*optimum, kind)?, Some(threshold)),
+            Question::Value(optimum) => (optimum.resolve(kind)?, None),
+            Question::Verdict(optimum, threshold) => (optimum.resolve(kind)?, Some(threshold)),
             Question::ForAll(threshold) if threshold.comparison.is_lower_bound() => {
                 (Resolution::Pminmin, Some(threshold))
             }
             Question::ForAll(threshold) => (Resolution::Pmaxmax, Some(threshold)),
         };
         Ok(Objective { resolution, path: self.path.clone(), threshold: threshold.cloned() })
-    }
-}
-
-fn resolve_optimum(optimum: Optimum, kind: ModelKind) -> Result<Resolution, PropertyError> {
-    match (optimum, kind) {
-        (Optimum::Both(resolution), ModelKind::Imdp) => Ok(resolution),
-        (Optimum::Min, ModelKind::Idtmc) => Ok(Resolution::Pminmin),
-        (Optimum::Max, ModelKind::Idtmc) => Ok(Resolution::Pmaxmax),
-        (Optimum::Min, ModelKind::Imdp) => {
-            Err(PropertyError::PlainOptimum { found: optimum, prism: "Pminmin", storm: "Pminmax" })
-        }
-        (Optimum::Max, ModelKind::Imdp) => {
-            Err(PropertyError::PlainOptimum { found: optimum, prism: "Pmaxmax", storm: "Pmaxmin" })
-        }
-        (Optimum::Both(found), ModelKind::Idtmc) => Err(PropertyError::NoPolicy {
-            found,
-            instead: if found.nature_maximises() { "Pmax" } else { "Pmin" },
-        }),
     }
 }
 

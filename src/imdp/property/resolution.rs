@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+use super::PropertyError;
+use crate::model::ModelKind;
+
 /// How the two nondeterminisms of an interval MDP are resolved: policy first, then nature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Resolution {
@@ -62,9 +65,34 @@ pub enum Optimum {
     Min,
     /// `Pmax`: nature maximises, for interval DTMCs.
     Max,
+    /// `P`: for models in which nobody has anything to choose.
+    Only,
 }
 
 impl Optimum {
+    /// Who maximises and who minimises in a kind of model.
+    ///
+    /// # Errors
+    /// [`PropertyError`] if the optimum says less or more than such a model needs.
+    pub fn resolve(self, kind: ModelKind) -> Result<Resolution, PropertyError> {
+        match (self, kind) {
+            (Self::Both(resolution), ModelKind::Imdp) => Ok(resolution),
+            (Self::Only, _) => Err(PropertyError::NoDirection),
+            (Self::Min, ModelKind::Idtmc) => Ok(Resolution::Pminmin),
+            (Self::Max, ModelKind::Idtmc) => Ok(Resolution::Pmaxmax),
+            (Self::Min, ModelKind::Imdp) => {
+                Err(PropertyError::PlainOptimum { found: self, prism: "Pminmin", storm: "Pminmax" })
+            }
+            (Self::Max, ModelKind::Imdp) => {
+                Err(PropertyError::PlainOptimum { found: self, prism: "Pmaxmax", storm: "Pmaxmin" })
+            }
+            (Self::Both(found), ModelKind::Idtmc) => Err(PropertyError::NoPolicy {
+                found,
+                instead: if found.nature_maximises() { "Pmax" } else { "Pmin" },
+            }),
+        }
+    }
+
     /// The optimum called `P<suffix>`.
     pub(super) fn from_suffix(suffix: &str) -> Option<Self> {
         Some(match suffix {
@@ -85,6 +113,7 @@ impl fmt::Display for Optimum {
             Self::Both(resolution) => resolution.fmt(f),
             Self::Min => f.write_str("Pmin"),
             Self::Max => f.write_str("Pmax"),
+            Self::Only => f.write_str("P"),
         }
     }
 }

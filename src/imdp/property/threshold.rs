@@ -91,6 +91,17 @@ impl Probability {
         Ok(Self { text: shortest_decimal(x.abs()), exact })
     }
 
+    /// This number, written as a decimal if there is one for it, else as a fraction.
+    ///
+    /// # Errors
+    /// [`ProbabilityError::Range`] unless it is between 0 and 1.
+    pub fn of_rational(exact: Rational) -> Result<Self, ProbabilityError> {
+        if exact < Rational::zero() || exact > Rational::one() {
+            return Err(ProbabilityError::Range);
+        }
+        Ok(Self { text: written(&exact), exact })
+    }
+
     /// The exact number that was written.
     pub fn exact(&self) -> &Rational {
         &self.exact
@@ -207,6 +218,35 @@ fn exact_decimal(text: &str) -> Result<Rational, ProbabilityError> {
     let power = exponent - fraction.len() as i32;
     let scale = BigInt::from(10).pow(power.unsigned_abs());
     Ok(if power >= 0 { Rational::from_integer(digits * scale) } else { Rational::new(digits, scale) })
+}
+
+/// A number of at least 0 as a decimal if there is one, else as a fraction.
+fn written(exact: &Rational) -> String {
+    let (mut rest, mut places) = (exact.denom().clone(), 0);
+    while rest > BigInt::one() && places < MAX_DIGITS {
+        let common = common_divisor(&rest, &BigInt::from(10));
+        if common.is_one() {
+            // Integers are limited, decimals are not.
+            let part =
+                |n: &BigInt| if *n > BigInt::from(i32::MAX) { format!("{n}.0") } else { n.to_string() };
+            return format!("{}/{}", part(exact.numer()), part(exact.denom()));
+        }
+        rest /= common;
+        places += 1;
+    }
+    let scaled = (exact * Rational::from_integer(BigInt::from(10).pow(places as u32))).to_integer();
+    let digits = format!("{scaled:0>width$}", width = places + 1);
+    let (whole, fraction) = digits.split_at(digits.len() - places);
+    if fraction.is_empty() { whole.to_owned() } else { format!("{whole}.{fraction}") }
+}
+
+/// The greatest common divisor of two positive numbers.
+fn common_divisor(a: &BigInt, b: &BigInt) -> BigInt {
+    let (mut a, mut b) = (a.clone(), b.clone());
+    while !b.is_zero() {
+        (a, b) = (b.clone(), a % b);
+    }
+    a
 }
 
 #[cfg(test)]

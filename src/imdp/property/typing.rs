@@ -1,204 +1,248 @@
-//! From trees to properties: what is a formula, what is an integer.
+//! What is a formula, what is a number, what is a path formula.
 
-use super::lexer::TokenKind;
+use super::constant::{Constant, constant};
 use super::parser::{Parser, Result};
-use super::tree::{Asked, BinaryOperator, Node, NodeKind, TemporalOperator};
-use super::unsupported;
-use super::{
-    IntegerExpression, ParseError, ParseErrorKind, PathFormula, Property, Question, Relation, StateFormula,
+use super::tree::{
+    Asked, BinaryOperator, Filter, FilterOperator, Function, Measured, Node, NodeKind, Operator, RewardPath,
+    StepBound, StepBounds, Structure, TemporalOperator,
 };
+use super::{ParseErrorKind, Relation, unsupported};
+use num_traits::ToPrimitive;
 
-/// Reads one property.
-///
-/// # Errors
-/// [`ParseError`] with the place and what is wrong there; see [`parse_properties`].
-pub fn parse_property(text: &str) -> std::result::Result<Property, ParseError> {
-    let mut parser = Parser::new(text);
-    let property = parser.property()?;
-    while parser.accept(";") {}
-    match parser.peek() {
-        TokenKind::End => Ok(property),
-        _ => Err(parser.unexpected("the end, as this is one property")),
-    }
+/// What an expression is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Type {
+    Formula,
+    Number,
+    /// A variable, which may be either.
+    Either,
+    /// Something that holds along a path.
+    Path,
 }
 
-/// Reads a properties file: any number of properties, each with an optional `"name":`.
-///
-/// As in PRISM, `;` may end a property, `//` starts a comment, and line breaks are blanks.
-///
-/// # Errors
-/// [`ParseError`] with the place and what is wrong there: the text does not follow PRISM's grammar, asks for
-/// something unsupported (called by its name), or repeats a property's name.
-pub fn parse_properties(text: &str) -> std::result::Result<Vec<Property>, ParseError> {
-    let mut parser = Parser::new(text);
-    let mut properties: Vec<Property> = vec![];
-    let mut names = std::collections::HashSet::new();
-    loop {
-        while parser.accept(";") {}
-        if parser.peek() == TokenKind::End {
-            return Ok(properties);
-        }
-        let span = parser.span();
-        let property = parser.property()?;
-        if let Some(name) = property.name.clone()
-            && !names.insert(name.clone())
-        {
-            return Err(parser.error_at(span, ParseErrorKind::DuplicateName { name }));
-        }
-        properties.push(property);
-    }
-}
+const FORMULA: &str = "a formula (compare a number with something, as in x=1)";
+const NUMBER: &str = "a number (a variable, or + - * / of numbers)";
+const PATH: &str = "a path formula, with one of the operators X, F, G, U, W and R";
 
 impl Parser<'_> {
-    fn property(&mut self) -> Result<Property> {
-        let name = self.property_name().map(str::to_owned);
-        if matches!(self.peek(), TokenKind::End) {
-            return Err(self.unexpected("a property, such as Pmaxmin=? [ F \"goal\" ]"));
-        }
-        let node = self.expression()?;
-        let (question, path) = self.question(&node)?;
-        Ok(Property { name, question, path: self.path(path)? })
-    }
-
-    fn question<'n>(&self, node: &'n Node) -> Result<(Question, &'n Node)> {
-        match &node.kind {
-            NodeKind::Probability(asked, path) => match &**asked {
-                Asked::Value(optimum) => Ok((Question::Value(*optimum), path)),
-                Asked::ForAll(threshold) => Ok((Question::ForAll(threshold.clone()), path)),
-            },
-            NodeKind::Binary(BinaryOperator::Compare(comparison), left, right) => match &left.kind {
-                NodeKind::Probability(asked, path) => match **asked {
-                    Asked::Value(optimum) => {
-                        let threshold = self.verdict_threshold(*comparison, right)?;
-                        Ok((Question::Verdict(optimum, threshold), path))
-                    }
-                    Asked::ForAll(_) => Err(self.no_property(node)),
-                },
-                _ => Err(self.no_property(node)),
-            },
-            _ => Err(self.no_property(node)),
-        }
-    }
-
-    fn no_property(&self, node: &Node) -> ParseError {
-        if contains_probability(node) {
-            self.error_at(node.span, unsupported::COMBINED)
-        } else {
-            self.wrong_kind(node, "a property that asks for a probability, such as Pmaxmin=? [ F \"goal\" ]")
-        }
-    }
-
-    fn path(&self, node: &Node) -> Result<PathFormula> {
-        match &node.kind {
-            NodeKind::Temporal(operator, steps, operand) => {
-                let (formula, steps) = (self.formula(operand)?, *steps);
-                Ok(match operator {
-                    TemporalOperator::Next => PathFormula::Next(formula),
-                    TemporalOperator::Finally => PathFormula::Finally { formula, steps },
-                    TemporalOperator::Globally => PathFormula::Globally { formula, steps },
-                })
-            }
-            NodeKind::Until(steps, left, right) => {
-                let (left, right) = (self.formula(left)?, self.formula(right)?);
-                Ok(PathFormula::Until { left, right, steps: *steps })
-            }
-            _ => {
-                // Temporal operators further down are the better explanation.
-                self.formula(node)?;
-                Err(self.wrong_kind(node, "a path formula, with one of the operators X, F, G and U"))
-            }
-        }
-    }
-
-    fn formula(&self, node: &Node) -> Result<StateFormula> {
-        let boxed = |node| self.formula(node).map(Box::new);
-        let all = |nodes: &[Node]| nodes.iter().map(|node| self.formula(node)).collect::<Result<Vec<_>>>();
+    /// What an expression is.
+    ///
+    /// # Errors
+    /// [`ParseError`](super::ParseError) at the part that does not fit.
+    pub(super) fn infer(&self, node: &Node) -> Result<Type> {
         Ok(match &node.kind {
-            NodeKind::True => StateFormula::True,
-            NodeKind::False => StateFormula::False,
-            NodeKind::Label(name) => StateFormula::Label(name.clone()),
-            NodeKind::Variable(name) => StateFormula::Variable(name.clone()),
-            NodeKind::Not(operand) => StateFormula::Not(boxed(operand)?),
-            NodeKind::And(operands) => StateFormula::And(all(operands)?),
-            NodeKind::Or(operands) => StateFormula::Or(all(operands)?),
-            NodeKind::Binary(BinaryOperator::Implies, left, right) => {
-                StateFormula::Implies(boxed(left)?, boxed(right)?)
-            }
-            NodeKind::Binary(BinaryOperator::Iff, left, right) => {
-                StateFormula::Iff(boxed(left)?, boxed(right)?)
+            NodeKind::True | NodeKind::False | NodeKind::Label(_) => Type::Formula,
+            NodeKind::Integer(_) | NodeKind::Decimal(_) => Type::Number,
+            NodeKind::Variable(_) => Type::Either,
+            NodeKind::Not(operand) => self.logical([&**operand])?,
+            NodeKind::And(operands) | NodeKind::Or(operands) => self.logical(operands)?,
+            NodeKind::Binary(BinaryOperator::Implies | BinaryOperator::Iff, left, right) => {
+                self.logical([&**left, &**right])?
             }
             NodeKind::Binary(BinaryOperator::Compare(comparison), left, right) => {
-                return self.comparison(*comparison, left, right);
+                self.comparison(*comparison, left, right)?;
+                Type::Formula
             }
-            NodeKind::Temporal(..) | NodeKind::Until(..) => {
-                return Err(self.error_at(node.span, unsupported::LTL));
+            NodeKind::Binary(_, left, right) => self.numbers([&**left, &**right])?,
+            NodeKind::Negate(operand) => self.numbers([&**operand])?,
+            NodeKind::Call(Function::Minimum | Function::Maximum, arguments) => self.numbers(arguments)?,
+            NodeKind::Call(_, arguments) => self.numbers(arguments)?,
+            NodeKind::Conditional(parts) => self.conditional(parts)?,
+            NodeKind::Temporal(operator, bounds, operand) => {
+                self.bounds(bounds)?;
+                let inside = self.logical([&**operand])?;
+                if inside == Type::Path && !bounds.is_none() {
+                    return Err(self.error_at(node.span, unsupported::BOUNDED_LTL));
+                }
+                debug_assert!(*operator != TemporalOperator::Next || bounds.is_none());
+                Type::Path
             }
-            NodeKind::Probability(..) => return Err(self.error_at(node.span, unsupported::NESTED)),
-            NodeKind::Integer(_) | NodeKind::Decimal | NodeKind::Negate(_) | NodeKind::Binary(..) => {
-                return Err(self.wrong_kind(node, "a formula (compare a number with something, as in x=1)"));
+            NodeKind::Until(_, bounds, operands) => {
+                self.bounds(bounds)?;
+                let inside = self.logical(operands.iter())?;
+                if inside == Type::Path && !bounds.is_none() {
+                    return Err(self.error_at(node.span, unsupported::BOUNDED_LTL));
+                }
+                Type::Path
             }
+            NodeKind::Operator(operator) => self.operator_type(operator)?,
+            NodeKind::Filter(filter) => self.filter_type(filter)?,
         })
     }
 
-    /// `=` and `!=` also compare formulas, and then mean `<=>` and its negation.
-    fn comparison(&self, comparison: Relation, left: &Node, right: &Node) -> Result<StateFormula> {
+    /// Operands of `!`, `&` and their like.
+    fn logical<'n>(&self, operands: impl IntoIterator<Item = &'n Node>) -> Result<Type> {
+        let mut all = Type::Formula;
+        for operand in operands {
+            match self.infer(operand)? {
+                Type::Number => return Err(self.wrong_kind(operand, FORMULA)),
+                Type::Path => all = Type::Path,
+                Type::Formula | Type::Either => {}
+            }
+        }
+        Ok(all)
+    }
+
+    fn numbers<'n>(&self, operands: impl IntoIterator<Item = &'n Node>) -> Result<Type> {
+        for operand in operands {
+            match self.infer(operand)? {
+                Type::Number | Type::Either => {}
+                Type::Path => return Err(self.error_at(operand.span, unsupported::PATH_OUTSIDE)),
+                Type::Formula => return Err(self.wrong_kind(operand, NUMBER)),
+            }
+        }
+        Ok(Type::Number)
+    }
+
+    /// A formula that is no path formula.
+    fn state_formula(&self, node: &Node) -> Result<()> {
+        match self.logical([node])? {
+            Type::Path => Err(self.error_at(node.span, unsupported::PATH_OUTSIDE)),
+            _ => Ok(()),
+        }
+    }
+
+    /// `=` and `!=` also compare formulas.
+    fn comparison(&self, comparison: Relation, left: &Node, right: &Node) -> Result<()> {
         let is_equality = matches!(comparison, Relation::Equal | Relation::NotEqual);
-        if is_equality && (is_formula(left) || is_formula(right)) {
-            let (left, right) = (Box::new(self.formula(left)?), Box::new(self.formula(right)?));
-            return Ok(match comparison {
-                Relation::Equal => StateFormula::Iff(left, right),
-                _ => StateFormula::Differ(left, right),
-            });
+        if is_equality && [self.infer(left)?, self.infer(right)?].contains(&Type::Formula) {
+            self.state_formula(left)?;
+            return self.state_formula(right);
         }
-        Ok(StateFormula::Compare(self.integer(left)?, comparison, self.integer(right)?))
+        self.numbers([left, right]).map(drop)
     }
 
-    fn integer(&self, node: &Node) -> Result<IntegerExpression> {
-        let boxed = |node| self.integer(node).map(Box::new);
-        Ok(match &node.kind {
-            NodeKind::Integer(value) => IntegerExpression::Literal(*value),
-            NodeKind::Variable(name) => IntegerExpression::Variable(name.clone()),
-            NodeKind::Negate(operand) => IntegerExpression::Negate(boxed(operand)?),
-            NodeKind::Binary(BinaryOperator::Add, left, right) => {
-                IntegerExpression::Add(boxed(left)?, boxed(right)?)
+    fn conditional(&self, [condition, then, otherwise]: &[Node; 3]) -> Result<Type> {
+        self.state_formula(condition)?;
+        match (self.infer(then)?, self.infer(otherwise)?) {
+            (Type::Formula, _) | (_, Type::Formula) => {
+                self.state_formula(then)?;
+                self.state_formula(otherwise)?;
+                Ok(Type::Formula)
             }
-            NodeKind::Binary(BinaryOperator::Subtract, left, right) => {
-                IntegerExpression::Subtract(boxed(left)?, boxed(right)?)
+            (Type::Either, Type::Either) => Ok(Type::Either),
+            _ => self.numbers([then, otherwise]),
+        }
+    }
+
+    fn operator_type(&self, operator: &Operator) -> Result<Type> {
+        match &operator.measured {
+            Measured::Probability(path) => {
+                if self.infer(path)? != Type::Path {
+                    return Err(self.wrong_kind(path, PATH));
+                }
             }
-            NodeKind::Binary(BinaryOperator::Multiply, left, right) => {
-                IntegerExpression::Multiply(boxed(left)?, boxed(right)?)
+            Measured::Reward(structure, path) => {
+                if let Structure::Number(number) = structure {
+                    self.steps(number, 1)?;
+                }
+                self.reward_path_type(path)?;
             }
-            NodeKind::Temporal(..) | NodeKind::Until(..) => {
-                return Err(self.error_at(node.span, unsupported::LTL));
+        }
+        match &operator.asked {
+            Asked::Value(_) => Ok(Type::Number),
+            Asked::ForAll(_, threshold) => {
+                self.threshold(threshold, matches!(operator.measured, Measured::Probability(_)))?;
+                Ok(Type::Formula)
             }
-            NodeKind::Probability(..) => return Err(self.error_at(node.span, unsupported::NESTED)),
-            _ => return Err(self.wrong_kind(node, "an integer (a number, a variable, or + - * of them)")),
+        }
+    }
+
+    fn reward_path_type(&self, path: &RewardPath) -> Result<()> {
+        match path {
+            RewardPath::Reach(node) => match &node.kind {
+                NodeKind::Temporal(TemporalOperator::Finally, bounds, operand) if bounds.is_none() => {
+                    self.state_formula(operand)
+                }
+                _ => match self.infer(node)? {
+                    Type::Path => Err(self.error_at(node.span, unsupported::REWARD_PATH)),
+                    _ => Err(self.wrong_kind(node, "F and a formula, C, C<=k or I=k")),
+                },
+            },
+            RewardPath::Cumulative(bound, discount) => {
+                if let Some(bound) = bound {
+                    self.step_count(bound)?;
+                }
+                match discount {
+                    Some(factor) => self.threshold(factor, true).map(drop),
+                    None => Ok(()),
+                }
+            }
+            RewardPath::Instantaneous(steps) => self.steps(steps, 0).map(drop),
+        }
+    }
+
+    fn filter_type(&self, filter: &Filter) -> Result<Type> {
+        if let Some(states) = &filter.states {
+            self.state_formula(states)?;
+        }
+        let operand = self.infer(&filter.operand)?;
+        if operand == Type::Path {
+            return Err(self.error_at(filter.operand.span, unsupported::PATH_OUTSIDE));
+        }
+        match filter.operator {
+            FilterOperator::Count | FilterOperator::ForAll | FilterOperator::Exists => {
+                self.state_formula(&filter.operand)?;
+            }
+            FilterOperator::State | FilterOperator::First | FilterOperator::Print => return Ok(operand),
+            _ => {
+                self.numbers([&filter.operand])?;
+            }
+        }
+        Ok(match filter.operator {
+            FilterOperator::ForAll | FilterOperator::Exists => Type::Formula,
+            _ => Type::Number,
         })
     }
-}
 
-/// Whether a node is certainly a formula; a variable may be either.
-fn is_formula(node: &Node) -> bool {
-    !matches!(
-        node.kind,
-        NodeKind::Integer(_)
-            | NodeKind::Decimal
-            | NodeKind::Variable(_)
-            | NodeKind::Negate(_)
-            | NodeKind::Binary(BinaryOperator::Add | BinaryOperator::Subtract | BinaryOperator::Multiply, ..)
-    )
-}
+    fn bounds(&self, bounds: &StepBounds) -> Result<()> {
+        let (least, most) = self.step_range(bounds)?;
+        match most {
+            Some(most) if most < least => {
+                let span = bounds.upper.as_ref().map_or_else(|| self.span(), |bound| bound.steps.span);
+                let found = format!("{least} and {most}");
+                Err(self.error_at(span, ParseErrorKind::EmptyRange { found }))
+            }
+            _ => Ok(()),
+        }
+    }
 
-fn contains_probability(node: &Node) -> bool {
-    match &node.kind {
-        NodeKind::Probability(..) => true,
-        NodeKind::Not(operand) | NodeKind::Negate(operand) | NodeKind::Temporal(_, _, operand) => {
-            contains_probability(operand)
+    /// The first and the last step at which something may happen; without a bound, 0 and none.
+    pub(super) fn step_range(&self, bounds: &StepBounds) -> Result<(u64, Option<u64>)> {
+        let least = match &bounds.lower {
+            None => 0,
+            // `>k` starts one later.
+            Some(bound) => self.steps(&bound.steps, 0)? + u64::from(bound.is_strict),
+        };
+        let most = bounds.upper.as_ref().map(|bound| self.step_count(bound)).transpose()?;
+        Ok((least, most))
+    }
+
+    /// The last step of `<=k` or `<k`.
+    pub(super) fn step_count(&self, bound: &StepBound) -> Result<u64> {
+        let least = u8::from(bound.is_strict);
+        Ok(self.steps(&bound.steps, least)? - u64::from(least))
+    }
+
+    /// A whole number from `least` on.
+    pub(super) fn steps(&self, node: &Node, least: u8) -> Result<u64> {
+        let value = constant(node).and_then(Constant::number).filter(|value| value.is_integer());
+        let steps = value.and_then(|value| value.to_integer().to_u64());
+        match steps.filter(|steps| *steps >= u64::from(least) && i32::try_from(*steps).is_ok()) {
+            Some(steps) => Ok(steps),
+            None => {
+                self.no_constant_without_value(node)?;
+                let found = self.text(node.span).to_owned();
+                Err(self.error_at(node.span, ParseErrorKind::Steps { least, found }))
+            }
         }
-        NodeKind::And(operands) | NodeKind::Or(operands) => operands.iter().any(contains_probability),
-        NodeKind::Binary(_, left, right) | NodeKind::Until(_, left, right) => {
-            contains_probability(left) || contains_probability(right)
+    }
+
+    /// What is left of names in a number that must be known is a constant nobody defines.
+    pub(super) fn no_constant_without_value(&self, node: &Node) -> Result<()> {
+        if let NodeKind::Variable(name) = &node.kind {
+            return Err(self.error_at(node.span, ParseErrorKind::Undefined { name: name.clone() }));
         }
-        _ => false,
+        node.kind.children().into_iter().try_for_each(|child| self.no_constant_without_value(child))
     }
 }

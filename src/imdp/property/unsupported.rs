@@ -2,45 +2,43 @@
 
 use super::ParseErrorKind;
 
-const PATH: &str =
-    "write one of X, F, G and U over state formulas, F, G and U with a bound <=k or <k if you like";
+const PATH: &str = "write F, G or U with a bound, or X that often";
 const PROPERTY: &str = "ask for a probability, as in Pmaxmin=? [ F \"goal\" ]";
 const NAMED: &str =
     "ask for one probability, as in Pmaxmin=? [ F \"goal\" ] or (Pmaxmin=? [ F \"goal\" ])>=0.9";
-const STATE: &str = "a state formula has labels, variables, integers, ( ) ! & | => <=> = != < <= > >= + - *";
+const STATE: &str = "a state formula has labels, variables, numbers, ( ) ! & | => <=> = != < <= > >= + - * / ?: min max mod pow floor ceil round";
 
-pub(super) const LTL: ParseErrorKind = unsupported("nested path formulas (LTL) are", PATH);
-pub(super) const WEAK_UNTIL: ParseErrorKind = unsupported("the operator W (weak until) is", PATH);
-pub(super) const RELEASE: ParseErrorKind = unsupported("the operator R (release) is", PATH);
-pub(super) const LOWER_STEP_BOUND: ParseErrorKind = unsupported("lower or exact step bounds are", PATH);
-pub(super) const STEP_INTERVAL: ParseErrorKind = unsupported("intervals of steps, as in F[a,b], are", PATH);
 pub(super) const NEXT_BOUND: ParseErrorKind = unsupported("step bounds on X are", PATH);
-pub(super) const NESTED: ParseErrorKind = unsupported(
-    "nested probability operators are",
-    "write a state formula without P, or give the model a label",
+pub(super) const BOUNDED_LTL: ParseErrorKind = unsupported(
+    "step bounds on nested path formulas are",
+    "write X that often, or bound the formula as a whole",
 );
-pub(super) const COMBINED: ParseErrorKind = unsupported(
-    "combinations of probabilities are",
-    "write one property for each; a threshold goes to its right",
-);
-pub(super) const NO_DIRECTION: ParseErrorKind = unsupported(
-    "P=? of interval models is",
-    "write Pmaxmin, Pmaxmax, Pminmin or Pminmax (interval MDP) or Pmin or Pmax (interval DTMC)",
-);
+pub(super) const PATH_OUTSIDE: ParseErrorKind =
+    unsupported("path formulas outside of P are", "put it into P…=? [ … ]");
+pub(super) const REWARD_PATH: ParseErrorKind =
+    unsupported("rewards of other path formulas are", "write F formula, C, C<=k or I=k in the brackets");
+pub(super) const COMBINED: ParseErrorKind =
+    unsupported("anything but one probability, perhaps compared with a threshold, is", NAMED);
 pub(super) const BOUNDED_OPTIMUM: ParseErrorKind = unsupported(
     "a threshold between Pmaxmin and [ is",
     "write it behind, as in (Pmaxmin=? [ F \"goal\" ])>=0.9",
 );
 pub(super) const MODIFIER: ParseErrorKind = unsupported("P with a modifier in parentheses is", PROPERTY);
-pub(super) const FILTER: ParseErrorKind =
-    unsupported("filters are", "values are computed for all states, and reported for the initial ones");
-pub(super) const CONDITIONAL: ParseErrorKind = unsupported("`? :` is", STATE);
-pub(super) const DIVISION: ParseErrorKind = unsupported("division is", STATE);
+pub(super) const FILTER: ParseErrorKind = unsupported(
+    "this kind of filter is",
+    "write min, max, avg, sum, count, state, first, forall, exists or print",
+);
+pub(super) const OLD_FILTER: ParseErrorKind =
+    unsupported("filters in braces are", "write filter(min, P…, states) around the property");
+pub(super) const STEADY: ParseErrorKind =
+    unsupported("steady-state rewards are", "write F formula, C, C<=k or I=k in the brackets");
+const LTL: ParseErrorKind = unsupported(
+    "a temporal operator inside of another expression without parentheses is",
+    "write them, as in (F \"a\") & (G \"b\")",
+);
 pub(super) const POWER: ParseErrorKind = unsupported("powers are", STATE);
 pub(super) const STRATEGY: ParseErrorKind = unsupported("strategy operators << >> and [[ ]] are", PROPERTY);
 pub(super) const FUNCTION: ParseErrorKind = unsupported("functions are", STATE);
-pub(super) const CONSTANT_BOUND: ParseErrorKind =
-    unsupported("constants are", "write the number of steps itself, as in F<=8");
 
 const fn unsupported(what: &'static str, instead: &'static str) -> ParseErrorKind {
     ParseErrorKind::Unsupported { what, instead }
@@ -49,19 +47,9 @@ const fn unsupported(what: &'static str, instead: &'static str) -> ParseErrorKin
 /// What a word at the start of an expression stands for, if it is a keyword for something unsupported.
 pub(super) fn keyword(word: &str) -> Option<ParseErrorKind> {
     Some(match word {
-        "R" | "Rmin" | "Rmax" | "Rminmin" | "Rminmax" | "Rmaxmin" | "Rmaxmax" => {
-            unsupported("rewards (R) are", NAMED)
-        }
         "S" => unsupported("steady-state probabilities (S) are", NAMED),
         "E" | "A" => unsupported("the CTL operators E and A are", NAMED),
-        "filter" => FILTER,
-        "const" => unsupported("constants are", "write the numbers themselves into the properties"),
-        "label" => {
-            unsupported("labels in a properties file are", "write the formula itself into the properties")
-        }
-        "formula" => unsupported("formulas in a properties file are", "write them into the properties"),
         "X" | "F" | "G" => LTL,
-        "min" | "max" | "func" => FUNCTION,
         _ => return None,
     })
 }

@@ -48,6 +48,24 @@ impl Answer {
         let objective = property.resolve(model.kind())?;
         let query = objective.query(model)?;
         let solution = solve(model, &Event::from(&query.kind), query.resolution, options)?;
+        Ok(Self::assemble(model, objective, query, solution))
+    }
+
+    /// What a solution that was computed before says about `property` on `model`.
+    ///
+    /// # Errors
+    /// [`AnswerError`] if the property does not fit the model.
+    pub fn of_solution(
+        model: &IntervalMdp,
+        property: &Property,
+        solution: Solution,
+    ) -> Result<Self, AnswerError> {
+        let objective = property.resolve(model.kind())?;
+        let query = objective.query(model)?;
+        Ok(Self::assemble(model, objective, query, solution))
+    }
+
+    fn assemble(model: &IntervalMdp, objective: Objective, query: Query, solution: Solution) -> Self {
         let values = if query.complement { solution.values.complement() } else { solution.values.clone() };
         let initial = || model.initial().ones();
         let lower = initial().map(|s| values.lower[s]).fold(1.0, f64::min);
@@ -55,7 +73,7 @@ impl Answer {
         let mut answer = Self { objective, query, solution, values, lower, upper, verdict: None };
         let verdicts: Option<Vec<Verdict>> = initial().map(|s| answer.verdict_of(s as StateId)).collect();
         answer.verdict = verdicts.map(Verdict::in_all);
-        Ok(answer)
+        answer
     }
 
     /// The certificate of this answer to `property`, for a model read from `files`.

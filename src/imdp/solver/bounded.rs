@@ -4,6 +4,7 @@
 
 use super::evidence::Recorder;
 use super::expectation::Bound;
+use super::history::History;
 use super::options::Control;
 use super::policy::{NO_CHOICE, first_choice};
 use super::query::{Direction, Players};
@@ -88,6 +89,7 @@ struct Iteration<'a> {
     /// By position in `sweep.states`: whether the last step raised the lower bound.
     raised: Vec<bool>,
     recorder: Option<Recorder>,
+    history: History,
 }
 
 impl<'a> Iteration<'a> {
@@ -116,6 +118,7 @@ impl<'a> Iteration<'a> {
             memory: GrowingMemory::new("the policy"),
             raised: vec![false; states.len()],
             recorder: options.evidence.then(|| Recorder::new(states.len())),
+            history: History::new(options.history),
             sweep: Sweep::new(model, players, states, &rows),
         }
     }
@@ -135,6 +138,7 @@ impl<'a> Iteration<'a> {
         if let Some(recorder) = &mut recorder {
             recorder.begin()?;
         }
+        self.history.keep(&self.lower);
         self.sweep.evaluate_rows(&self.lower, Bound::Lower, &mut self.lower_rows);
         self.sweep.evaluate_rows(&self.upper, Bound::Upper, &mut self.upper_rows);
         self.sweep.evaluate_states(&self.lower_rows, &mut self.results);
@@ -208,6 +212,7 @@ impl<'a> Iteration<'a> {
     fn finish(self, steps: u64, status: Status, iterations: u64) -> Solution {
         let states = self.model.num_states();
         Solution {
+            history: self.history.finish(&self.lower, steps, iterations),
             values: ValueBounds { lower: self.lower, upper: self.upper },
             status,
             iterations,

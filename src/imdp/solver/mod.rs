@@ -21,27 +21,34 @@
 mod answer;
 mod bounded;
 mod component;
+mod delay;
 mod evidence;
 mod expectation;
 mod extrapolate;
 mod graph;
 mod guess;
+mod history;
+mod omega;
 mod options;
 mod policy;
 mod prune;
 mod query;
 mod range_optimum;
+mod reward;
 mod solution;
 mod sweep;
 mod unbounded;
 mod working_memory;
 
 pub use answer::{Answer, AnswerError};
+pub use delay::solve_delayed;
 pub use expectation::worst_expectations;
+pub(crate) use omega::{Acceptance, accepting_states};
 pub use options::{Control, SolverOptions, Status};
 pub use policy::{NO_CHOICE, Policy};
 pub use prune::{PruneError, Pruned};
 pub use query::{Event, SolveError};
+pub use reward::{RewardQuery, solve_rewards};
 pub use solution::{Solution, ValueBounds};
 
 use crate::model::IntervalMdp;

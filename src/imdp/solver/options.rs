@@ -20,6 +20,8 @@ pub struct SolverOptions<'a> {
     pub progress: Option<&'a (dyn Fn(u64, f64) + Sync)>,
     /// Whether a policy is wanted.
     pub policy: bool,
+    /// Bounded queries: of how many earlier numbers of steps the lower bounds are wanted too.
+    pub history: usize,
     /// Whether what a certificate needs is wanted, which includes the policy.
     pub evidence: bool,
 }
@@ -33,13 +35,15 @@ impl Default for SolverOptions<'_> {
             interrupt: None,
             progress: None,
             policy: false,
+            history: 0,
             evidence: false,
         }
     }
 }
 
 /// How a computation ended. The bounds are sound in every case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Status {
     /// All steps of a bounded query were taken, or no further step changes anything.
     HorizonReached,

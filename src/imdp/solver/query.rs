@@ -44,6 +44,11 @@ pub enum SolveError {
         /// The number of states of the model.
         states: usize,
     },
+    /// Rewards are to be summed up for ever without a discount.
+    #[error(
+        "rewards without end may have no finite sum; bound the steps, as in C<=10, or discount them, as in C, discount=0.9"
+    )]
+    Undiscounted,
     /// The wanted distance of the bounds is not a positive number.
     #[error("epsilon is {epsilon}; give a positive number, such as 1e-6")]
     Epsilon {

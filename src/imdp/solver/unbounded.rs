@@ -84,7 +84,7 @@ pub(super) fn until(
     if status == Status::Converged && values.gap() > options.epsilon {
         status = Status::PrecisionLimit;
     }
-    Ok(Solution { values, status, iterations: control.iterations, policy, evidence })
+    Ok(Solution { values, status, iterations: control.iterations, policy, history: vec![], evidence })
 }
 
 /// A strong component of the graph of states and rows.

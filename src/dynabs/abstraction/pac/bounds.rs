@@ -1,6 +1,8 @@
 //! Clopper–Pearson bounds for every count and level that occur, each computed once.
 
 use super::super::landing::Count;
+use super::super::windows::WINDOWS;
+use super::levels::EventLevels;
 use crate::statistics::{lower_bound, upper_bound};
 use imdp::numeric::{round_decimal_down, round_decimal_up};
 use rayon::prelude::*;
@@ -14,8 +16,37 @@ pub(super) const DIGITS: usize = 10;
 /// A lower and an upper bound for a probability.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Interval {
-    pub(super) lower: f64,
+    /// Per window that a row may be made with.
+    pub(super) lower: [f64; WINDOWS],
     pub(super) upper: f64,
+}
+
+/// How many samples there are, and what lower bounds are about.
+pub(super) struct SampleSize {
+    /// All samples.
+    pub(super) number: u64,
+    /// If lower bounds are for the noise inside of windows: per window, the samples there, and how much of the noise is
+    /// there at least.
+    pub(super) inside: Option<Vec<(u64, f64)>>,
+}
+
+impl SampleSize {
+    /// Both bounds, rounded outwards to short decimals.
+    fn interval(&self, count: Count, levels: &EventLevels) -> Interval {
+        let lower = match &self.inside {
+            None => {
+                let bound = lower_bound(count.certain[0].into(), self.number, levels.lower[0]);
+                [round_decimal_down(bound, DIGITS); WINDOWS]
+            }
+            Some(inside) => std::array::from_fn(|window| {
+                let Some(&(number, kept)) = inside.get(window) else { return 0.0 };
+                let conditional = lower_bound(count.certain[window].into(), number, levels.lower[window]);
+                round_decimal_down((kept * conditional).next_down().max(0.0), DIGITS)
+            }),
+        };
+        let upper = upper_bound(count.possible.into(), self.number, levels.upper);
+        Interval { lower, upper: round_decimal_up(upper, DIGITS).min(1.0) }
+    }
 }
 
 /// Intervals by count and by what decides about the levels.
@@ -24,21 +55,14 @@ pub(super) struct BoundTable<K> {
 }
 
 impl<K: Copy + Eq + Ord + Hash + Send + Sync> BoundTable<K> {
-    /// Both bounds for all `events`, rounded outwards to short decimals; `levels` gives the lower bound's level and
-    /// the upper's.
+    /// Both bounds for all `events`.
     pub(super) fn new(
         events: impl Iterator<Item = (Count, K)>,
-        samples: u64,
-        levels: impl Fn(K) -> (f64, f64) + Sync,
+        size: &SampleSize,
+        levels: impl Fn(K) -> EventLevels + Sync,
     ) -> Self {
         let events: Vec<_> = events.collect::<BTreeSet<_>>().into_iter().collect();
-        let interval = |&(count, key): &(Count, K)| {
-            let (of_lower, of_upper) = levels(key);
-            let lower = lower_bound(count.certain.into(), samples, of_lower);
-            let upper = upper_bound(count.possible.into(), samples, of_upper);
-            let lower = round_decimal_down(lower, DIGITS);
-            ((count, key), Interval { lower, upper: round_decimal_up(upper, DIGITS).min(1.0) })
-        };
+        let interval = |&(count, key): &(Count, K)| ((count, key), size.interval(count, &levels(key)));
         Self { intervals: events.par_iter().map(interval).collect() }
     }
 

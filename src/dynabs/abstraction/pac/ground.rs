@@ -27,7 +27,7 @@ impl<'a> Ground<'a> {
         let intervals = match &rows.shared {
             Some(intervals) => Cow::Borrowed(&intervals[..]),
             None => {
-                let from = rows.landings.target_cell(rows.targets, target, grid);
+                let from = rows.landings.target_cell(rows.targets, target);
                 Cow::Owned(intervals(&landing, &from, &rows.cells))
             }
         };
@@ -52,7 +52,7 @@ pub(super) fn cell_events(
             .into_par_iter()
             .flat_map_iter(|target| {
                 let (landing, _) = landings.of(targets, target, grid, &mut vec![0; grid.dimension()]);
-                let mut events = events(&landing, &landings.target_cell(targets, target, grid));
+                let mut events = events(&landing, &landings.target_cell(targets, target));
                 events.sort_unstable();
                 events.dedup();
                 events

@@ -5,6 +5,7 @@
 //! Weights are integers, so that they add up exactly.
 
 use super::super::targets::Targets;
+use super::super::windows::WINDOWS;
 use crate::partition::{Grid, Region};
 use crate::statistics::{BudgetError, ConfidenceBudget, Grant};
 use imdp::numeric::{Rational, to_f64};
@@ -16,7 +17,7 @@ const SHARES: [(&str, i64); 4] = [("cells", 34), ("goal", 8), ("lost", 6), ("win
 
 /// The window of all samples, then those that leave out one sample more each: rows close to something lost are
 /// better off with a smaller window that stays clear of it.
-const WINDOW_WEIGHTS: [u64; 4] = [20, 1, 1, 1];
+const WINDOW_WEIGHTS: [u64; WINDOWS] = [20, 1, 1, 1];
 
 /// Of every goal event's weight in hundredths, what its lower bound gets: the upper one hardly matters.
 const GOAL_LOWER: u64 = 95;
@@ -24,15 +25,49 @@ const GOAL_LOWER: u64 = 95;
 /// The weight of what is nearest.
 const UNIT: f64 = (1u64 << 48) as f64;
 
+/// What lower bounds are about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum LowerBounds {
+    /// The noise: one event, whatever the window of the row.
+    OfNoise,
+    /// The noise inside of a window: one event for each of them.
+    InsideWindows,
+}
+
 /// The levels of all events.
 pub(super) struct Levels {
     dimension: usize,
+    lower: LowerBounds,
     cells: Grant,
     goal: Grant,
     /// That of every action's event.
     pub(super) lost: f64,
     /// Those of the windows, the largest first.
-    pub(super) windows: [f64; WINDOW_WEIGHTS.len()],
+    pub(super) windows: [f64; WINDOWS],
+}
+
+impl LowerBounds {
+    /// The weight of a lower bound for a window, in parts of [`whole`](Self::whole).
+    fn part(self, window: usize) -> u64 {
+        match self {
+            Self::OfNoise => 1,
+            Self::InsideWindows => WINDOW_WEIGHTS[window],
+        }
+    }
+
+    fn whole(self) -> u64 {
+        match self {
+            Self::OfNoise => 1,
+            Self::InsideWindows => WINDOW_WEIGHTS.iter().sum(),
+        }
+    }
+
+    fn events(self) -> u64 {
+        match self {
+            Self::OfNoise => 1,
+            Self::InsideWindows => WINDOWS as u64,
+        }
+    }
 }
 
 impl Levels {
@@ -40,6 +75,7 @@ impl Levels {
     /// event per action whose target is so far from the goal.
     pub(super) fn new(
         budget: &mut ConfidenceBudget,
+        lower: LowerBounds,
         offsets: &[(i64, i64)],
         origins: usize,
         goal_distances: &[u32],
@@ -50,8 +86,8 @@ impl Levels {
         let goal: BigInt = goal_distances.iter().map(|&distance| BigInt::from(goal_weight(distance))).sum();
         let actions = BigInt::from(goal_distances.len());
         let families = [
-            (number * origins, total_offset_weight(offsets) * origins * 2),
-            (actions.clone(), goal * 100),
+            (number * origins * lower.events(), total_offset_weight(offsets) * origins * 2 * lower.whole()),
+            (&actions * lower.events(), goal * 100 * lower.whole()),
             (actions.clone(), actions),
             (one(WINDOW_WEIGHTS.len() as u64), one(WINDOW_WEIGHTS.iter().sum())),
         ];
@@ -61,19 +97,41 @@ impl Levels {
         let [cells, goal, lost, windows]: [Grant; 4] =
             grants.try_into().unwrap_or_else(|_| unreachable!("one grant per family"));
         let windows = WINDOW_WEIGHTS.map(|weight| windows.level(weight));
-        Ok(Self { dimension: offsets.len(), cells, goal, lost: lost.level(1), windows })
+        Ok(Self { dimension: offsets.len(), lower, cells, goal, lost: lost.level(1), windows })
     }
 
-    /// The level of either bound for the cell at a squared distance, in cells, from the target's.
-    pub(super) fn cell(&self, squared_distance: u64) -> f64 {
-        self.cells.level(offset_weight(self.dimension, squared_distance))
+    /// What lower bounds are about.
+    pub(super) fn lower_bounds(&self) -> LowerBounds {
+        self.lower
     }
 
-    /// The levels of the lower and of the upper bound for a target at a distance, in cells, from the goal.
-    pub(super) fn goal(&self, distance: u32) -> (f64, f64) {
+    /// The levels for the cell at a squared distance, in cells, from the target's.
+    pub(super) fn cell(&self, squared_distance: u64) -> EventLevels {
+        let weight = offset_weight(self.dimension, squared_distance);
+        self.of_event(&self.cells, weight, weight)
+    }
+
+    /// The levels for a target at a distance, in cells, from the goal.
+    pub(super) fn goal(&self, distance: u32) -> EventLevels {
         let weight = goal_weight(distance);
-        (self.goal.level(GOAL_LOWER * weight), self.goal.level((100 - GOAL_LOWER) * weight))
+        self.of_event(&self.goal, GOAL_LOWER * weight, (100 - GOAL_LOWER) * weight)
     }
+
+    fn of_event(&self, grant: &Grant, lower: u64, upper: u64) -> EventLevels {
+        EventLevels {
+            lower: std::array::from_fn(|window| grant.level(self.lower.part(window) * lower)),
+            upper: grant.level(self.lower.whole() * upper),
+        }
+    }
+}
+
+/// The levels of the bounds of one probability.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct EventLevels {
+    /// Of the lower bound, per window.
+    pub(super) lower: [f64; WINDOWS],
+    /// Of the upper bound.
+    pub(super) upper: f64,
 }
 
 /// `(1 + |o|²/(4n))^{−q}` for `|o|² = square`, with `q = n/2 + 1` rounded up: a multivariate t density.
@@ -145,24 +203,28 @@ mod tests {
 
     #[test]
     fn all_events_together_cost_what_was_given() {
-        let offsets = [(-3, 4), (-2, 2)];
-        let distances = [0, 0, 1, 5];
-        let mut budget = ConfidenceBudget::new(Rational::new(1.into(), 100.into()));
-        let levels = Levels::new(&mut budget, &offsets, 1, &distances).unwrap();
-        let mut cells = 0.0;
-        for i in -3..=4i64 {
-            for j in -2..=2i64 {
-                cells += 2.0 * levels.cell((i * i + j * j) as u64);
+        for lower in [LowerBounds::OfNoise, LowerBounds::InsideWindows] {
+            let offsets = [(-3, 4), (-2, 2)];
+            let distances = [0, 0, 1, 5];
+            let mut budget = ConfidenceBudget::new(Rational::new(1.into(), 100.into()));
+            let levels = Levels::new(&mut budget, lower, &offsets, 1, &distances).unwrap();
+            let events = lower.events() as usize;
+            let cost = |event: EventLevels| event.upper + event.lower[..events].iter().sum::<f64>();
+            let mut cells = 0.0;
+            for i in -3..=4i64 {
+                for j in -2..=2i64 {
+                    cells += cost(levels.cell((i * i + j * j) as u64));
+                }
             }
+            let goal: f64 = distances.iter().map(|&distance| cost(levels.goal(distance))).sum();
+            let windows: f64 = levels.windows.iter().sum();
+            let sums = [cells, goal, levels.lost * 4.0, windows];
+            for ((sum, allocation), (_, share)) in sums.iter().zip(budget.allocations()).zip(SHARES) {
+                assert!((sum - allocation.beta).abs() < 1e-15, "{allocation:?}: {sum}");
+                assert!((allocation.beta - share as f64 * 1e-4).abs() < 1e-15);
+            }
+            assert!((sums.iter().sum::<f64>() - 0.01).abs() < 1e-14);
         }
-        let goal: f64 = distances.iter().map(|&d| levels.goal(d).0 + levels.goal(d).1).sum();
-        let windows: f64 = levels.windows.iter().sum();
-        let sums = [cells, goal, levels.lost * 4.0, windows];
-        for ((sum, allocation), (_, share)) in sums.iter().zip(budget.allocations()).zip(SHARES) {
-            assert!((sum - allocation.beta).abs() < 1e-15, "{allocation:?}: {sum}");
-            assert!((allocation.beta - share as f64 * 1e-4).abs() < 1e-15);
-        }
-        assert!((sums.iter().sum::<f64>() - 0.01).abs() < 1e-14);
     }
 
     #[test]

@@ -31,6 +31,35 @@
 //! and the number of events stays the same. Windows likewise: a sample is as far as the farthest cell that it may
 //! lie in, so with `C` the cells of a window all but `j` samples are in `C⁻ − d_a` for certain.
 //!
+//! # Every step of a group
+//!
+//! Where `d > 1` steps are one and something unsafe is to be avoided at each of them, more is claimed. Let `ξ_i` be the noise
+//! so far after step `i`, `ξ_d = η`, and `ξ = (ξ_1 … ξ_d)`; samples are of `ξ`.
+//!
+//! **Claim.** With probability at least `1 − β` every row, in every cell in which its action is enabled, contains the
+//! distribution of the cell of `d_a + η` after moving to `failed`, beyond the above, the mass of all `ξ` with which some state
+//! of the cell meets something unsafe at a step before the last.
+//!
+//! **Proof.** From a state `x` of the cell the state after step `i < d` is `m_i + ξ_i`, with `m_i` in a box that is known
+//! ([`PartialImage`](crate::system::PartialImage)). Windows are for `ξ`, and the action is enabled only if these boxes, widened
+//! by the largest window, keep clear of everything unsafe: so they do with every smaller one. Take a window, `W`, made from
+//! the samples, and let `inside` mean a noise that is nearer than its edge, the `(j+1)`-th farthest of `m` samples; equal
+//! distances are ordered by independent uniform numbers, which the noise at run time gets as well. Then
+//! - nothing unsafe is met between the steps if the noise is inside;
+//! - `P(outside) ≤ ε` by the family *windows*, as above;
+//! - given the edge, the `m − j − 1` samples that are nearer are independent, and their law is that of the noise conditioned on
+//!   being inside (of independent numbers, those below an order statistic are independent given it, with the law cut off
+//!   there). So, whatever the edge is, each Clopper–Pearson bound with their number holds for the conditional probability except
+//!   with probability its level, and hence also without the condition: `P(η ∈ C | inside) ≥ l`, one event per window.
+//!
+//! Let `p` be what remains of a listed set `C` after moving: `P(η ∈ C, nothing unsafe in between)`. It is at least
+//! `P(inside) P(η ∈ C | inside) ≥ (1 − ε) l`, and at most `P(η ∈ C) ≤ u`, the bound from above, of all samples. What is
+//! moved to `failed` beyond what is lost at the end is outside of `W`, so `ε`, or `ε` and the bound of *lost*, covers it as
+//! above. *Lost* are the cells in which the law has no action at all: those where windows leave none are known only from
+//! the samples, and are listed like any other. ∎
+//!
+//! A lower bound of `P(η ∈ C)` itself would not do: all of that mass could be noise that meets an obstacle on its way.
+//!
 //! Moving mass to `failed` can only lower the probability of a formula that is false from `failed` on, so
 //! robust lower bounds of such formulas (`Pmaxmin`, `Pminmin`) carry over to the system; dually, upper
 //! bounds with maximising nature of `F "failed"`. Nothing else is claimed. Samples whose cell is not certain
@@ -39,6 +68,7 @@
 mod bounds;
 mod ground;
 mod levels;
+mod prepared;
 
 use super::AbstractionError;
 use super::footprint::need_of_rows;
@@ -47,21 +77,18 @@ use super::landings::{Landings, Placements, for_each_cell, is_inside};
 use super::outcomes::{Outcome, Outcomes};
 use super::states::{FAILED, REACHED, StateSpace};
 use super::targets::Targets;
-use super::windows::{Shape, Windows, shape_samples};
+use super::windows::WINDOWS;
 use crate::guarantee::SampleEvidence;
 use crate::problem::Problem;
-use crate::statistics::{ConfidenceBudget, upper_bound};
 use bounds::{BoundTable, DIGITS, Interval};
 use ground::{Ground, cell_events, intervals};
 use imdp::model::Rows;
-use imdp::numeric::{Rational, round_decimal_down, round_decimal_up, to_f64};
+use imdp::numeric::{round_decimal_down, round_decimal_up};
 use imdp::progress::Progress;
 use imdp::solver::worst_expectations;
-use levels::{Levels, distances_in_cells};
+use levels::{EventLevels, LowerBounds};
+pub(super) use prepared::Prepared;
 use rayon::prelude::*;
-
-/// The most that may be unseen: beyond it no policy could be shown to succeed more often than not.
-const MAX_UNSEEN: f64 = 0.5;
 
 /// The rows of all actions, with any of their windows.
 pub(super) struct PacRows<'a> {
@@ -72,8 +99,6 @@ pub(super) struct PacRows<'a> {
     landings: Landings<'a>,
     /// Per action.
     regions: Vec<RegionCounts>,
-    /// Per action, in cells.
-    goal_distances: Vec<u32>,
     /// By squared distance from the target.
     cells: BoundTable<u64>,
     /// The intervals of the shared landing's table.
@@ -81,38 +106,23 @@ pub(super) struct PacRows<'a> {
     /// By distance from the goal.
     goal: BoundTable<u32>,
     lost: BoundTable<()>,
-    /// Per window.
-    unseen: Vec<f64>,
-    budget: ConfidenceBudget,
+    prepared: Prepared,
 }
 
 impl<'a> PacRows<'a> {
-    /// Spends `beta` and counts; the `discard` farthest samples are left out of all windows.
+    /// Counts.
     pub(super) fn new(
         problem: &'a Problem,
-        (beta, discard): (Rational, usize),
+        prepared: Prepared,
         targets: &'a Targets,
         placements: Placements<'a>,
         states: &'a StateSpace,
         outcomes: &'a Outcomes,
     ) -> Result<Self, AbstractionError> {
         let (grid, samples) = (problem.grid(), &problem.noise().samples);
-        let number = samples.len() as u64;
-        let goal_distances = distances_in_cells(targets, problem.goal(), grid);
-        let origins = if placements.shared().is_some() { 1 } else { targets.len() };
-        let mut budget = ConfidenceBudget::new(beta);
-        let levels = Levels::new(&mut budget, &placements.offset_ranges(grid), origins, &goal_distances)?;
-
-        let shape = Shape::learn(samples, grid);
-        let windows = Windows::new(samples, shape, placements.shared(), discard, &levels.windows);
-        let unseen = |&unseen: &f64| round_decimal_up(unseen, DIGITS).min(1.0);
-        let unseen: Vec<f64> = windows.unseen().iter().map(unseen).collect();
-        let of_largest = unseen.first().copied().unwrap_or(1.0);
-        if of_largest > MAX_UNSEEN {
-            let needed = enough_samples(discard, levels.windows[0]);
-            return Err(AbstractionError::TooFewSamples { samples: number, needed, unseen: of_largest });
-        }
-        let landings = Landings::new(samples, placements, Some(windows));
+        let levels = &prepared.levels;
+        let inside_only = levels.lower_bounds() == LowerBounds::InsideWindows;
+        let landings = Landings::in_windows(samples, placements, prepared.windows.clone(), inside_only);
         let entries = targets.len() as u64 * landings.row_length(grid) as u64;
         need_of_rows(problem, entries).check()?;
 
@@ -122,13 +132,15 @@ impl<'a> PacRows<'a> {
         };
         let regions: Vec<RegionCounts> =
             (0..targets.len()).into_par_iter().map_init(|| vec![0; grid.dimension()], counts).collect();
-        let of_cell = |square| (levels.cell(square), levels.cell(square));
-        let cells = BoundTable::new(cell_events(&landings, targets, problem), number, of_cell);
-        let goal_events = regions.iter().map(|r| r.goal).zip(goal_distances.iter().copied());
-        let goal = BoundTable::new(goal_events, number, |distance| levels.goal(distance));
+        let size = prepared.sample_size(samples.len() as u64);
+        let cell_events = cell_events(&landings, targets, problem);
+        let cells = BoundTable::new(cell_events, &size, |square| levels.cell(square));
+        let goal_events = regions.iter().map(|r| r.goal).zip(prepared.goal_distances.iter().copied());
+        let goal = BoundTable::new(goal_events, &size, |distance| levels.goal(distance));
         let lost_events = regions.iter().map(|r| (r.lost, ()));
         // Only the upper bound is claimed and paid for: at level 0 the lower one is 0.
-        let lost = BoundTable::new(lost_events, number, |()| (0.0, levels.lost));
+        let of_lost = EventLevels { lower: [0.0; WINDOWS], upper: levels.lost };
+        let lost = BoundTable::new(lost_events, &size, |()| of_lost);
         let shared = landings.shared().map(|landing| intervals(landing, &vec![0; grid.dimension()], &cells));
         Ok(Self {
             problem,
@@ -137,13 +149,11 @@ impl<'a> PacRows<'a> {
             outcomes,
             landings,
             regions,
-            goal_distances,
             cells,
             shared,
             goal,
             lost,
-            unseen,
-            budget,
+            prepared,
         })
     }
 
@@ -151,7 +161,8 @@ impl<'a> PacRows<'a> {
     pub(super) fn rows(&self, progress: &dyn Progress) -> Rows {
         self.collect("rows", progress, |target, rows| {
             let ground = Ground::new(self, target);
-            let failed: Vec<f64> = (0..self.unseen.len()).map(|w| self.failed(&ground, target, w)).collect();
+            let failed: Vec<f64> =
+                (0..self.prepared.unseen.len()).map(|w| self.failed(&ground, target, w)).collect();
             let best = (1..failed.len()).fold(0, |best, w| if failed[w] < failed[best] { w } else { best });
             self.push_row(&ground, target, best, rows);
         })
@@ -165,21 +176,22 @@ impl<'a> PacRows<'a> {
         self.collect("choice of windows", progress, |target, rows| {
             let ground = Ground::new(self, target);
             let mut candidates = Rows::new();
-            (0..self.unseen.len()).for_each(|w| self.push_row(&ground, target, w, &mut candidates));
+            (0..self.prepared.unseen.len()).for_each(|w| self.push_row(&ground, target, w, &mut candidates));
             let worth = worst_expectations(&candidates, values);
             let best = (1..worth.len()).fold(0, |best, w| if worth[w] > worth[best] { w } else { best });
             self.push_row(&ground, target, best, rows);
         })
     }
 
-    /// What the rows rest on, as one of `sweep` settings that `β` is shared by.
-    pub(super) fn evidence(&self, beta: &Rational, sweep: u64) -> SampleEvidence {
+    /// What the rows rest on.
+    pub(super) fn evidence(&self) -> SampleEvidence {
+        let prepared = &self.prepared;
         SampleEvidence {
             number: self.problem.noise().samples.len() as u64,
-            beta: to_f64(beta),
-            sweep,
-            budget: self.budget.allocations().to_vec(),
-            unseen_mass: self.unseen.first().copied().unwrap_or(1.0),
+            beta: prepared.beta,
+            sweep: prepared.sweep,
+            budget: prepared.budget.allocations().to_vec(),
+            unseen_mass: prepared.unseen.first().copied().unwrap_or(1.0),
         }
     }
 
@@ -197,7 +209,7 @@ impl<'a> PacRows<'a> {
 
     /// How much may fail if the row is made with a window.
     fn failed(&self, ground: &Ground<'_>, target: usize, window: usize) -> f64 {
-        let unseen = self.unseen[window];
+        let unseen = self.prepared.unseen[window];
         let most = if self.is_clean(&ground.windows[window], &ground.origin) {
             unseen
         } else {
@@ -214,17 +226,18 @@ impl<'a> PacRows<'a> {
         for_each_cell(table, cells, origin, grid, |cell, i| {
             if self.outcomes.of(cell) == Outcome::Reached {
                 meets_goal = true;
-                goal_lower = f64::next_down(goal_lower + intervals[i].lower).max(0.0);
+                goal_lower = f64::next_down(goal_lower + intervals[i].lower[window]).max(0.0);
             }
         });
         rows.push_entry(FAILED, 0.0, self.failed(ground, target, window));
         if meets_goal {
-            let event = self.goal.get(self.regions[target].goal, self.goal_distances[target]);
-            rows.push_entry(REACHED, event.lower.max(round_decimal_down(goal_lower, DIGITS)), event.upper);
+            let event = self.goal.get(self.regions[target].goal, self.prepared.goal_distances[target]);
+            let lower = event.lower[window].max(round_decimal_down(goal_lower, DIGITS));
+            rows.push_entry(REACHED, lower, event.upper);
         }
         for_each_cell(table, cells, origin, grid, |cell, i| {
             if self.outcomes.of(cell) == Outcome::Open {
-                rows.push_entry(self.states.of_cell(cell), intervals[i].lower, intervals[i].upper);
+                rows.push_entry(self.states.of_cell(cell), intervals[i].lower[window], intervals[i].upper);
             }
         });
         rows.finish_row();
@@ -241,30 +254,4 @@ impl<'a> PacRows<'a> {
         }
         clean
     }
-}
-
-/// The smallest number of samples with which less than half of the mass may be unseen.
-fn enough_samples(discard: usize, level: f64) -> u64 {
-    let enough = |samples: u64| {
-        let left = samples.saturating_sub(shape_samples(samples as usize) as u64);
-        left > discard as u64 && upper_bound(discard as u64, left, level) <= MAX_UNSEEN
-    };
-    let mut high = discard as u64 + 2;
-    // At a level of 0, which doubles make of the tiniest budgets, no number is enough.
-    while !enough(high) {
-        if high > u64::from(u32::MAX) {
-            return u64::MAX;
-        }
-        high *= 2;
-    }
-    let mut low = high / 2;
-    while high - low > 1 {
-        let middle = low + (high - low) / 2;
-        if enough(middle) {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    high
 }

@@ -7,7 +7,7 @@ use crate::problem::Problem;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-const TEMPLATE: &str = include_str!("../../../../templates/controller.c");
+const TEMPLATE: &str = include_str!("../../templates/controller.c");
 
 /// The width of a line of C.
 const WIDTH: usize = 110;

@@ -105,6 +105,7 @@ impl<'a> InputSimulation<'a> {
         let mut outcome = RunOutcome {
             end: End::Unfinished,
             satisfied: false,
+            satisfied_at_instants: false,
             unsafe_between: false,
             steps: 0,
             violations: 0,
@@ -129,7 +130,8 @@ impl<'a> InputSimulation<'a> {
                     Decision::Over => End::Over,
                 };
                 let kept = end == End::Over && !lost;
-                return RunOutcome { end, satisfied: satisfied || aim == Aim::Stay && kept, ..outcome };
+                let satisfied = satisfied || aim == Aim::Stay && kept;
+                return RunOutcome { end, satisfied, satisfied_at_instants: satisfied, ..outcome };
             }
             if let Some((half_space, excess)) = self.inputs.as_ref().and_then(|inputs| inputs.violation(&u)) {
                 outcome.violations += 1;

@@ -19,6 +19,8 @@ pub struct Simulation<'a> {
     inputs: InputCheck,
     goal: Vec<RegionLookup>,
     avoid: Vec<RegionLookup>,
+    /// Whether the outside of the partition is to be avoided at every step too.
+    avoids_outside: bool,
     noise: Noise,
     /// Runs of unbounded tasks end after this many grouped steps.
     most_steps: u64,
@@ -47,9 +49,11 @@ pub enum End {
 pub struct RunOutcome {
     /// How it ended.
     pub end: End,
-    /// Whether the goal region itself was met at a grouped instant, the unsafe region at none before.
+    /// Whether the goal region itself was met at a grouped instant, and nothing unsafe at any original step before.
     pub satisfied: bool,
-    /// Whether the unsafe region was met between grouped instants, of which the guarantee says nothing.
+    /// Whether the goal region itself was met at a grouped instant, the unsafe region at no such instant before.
+    pub satisfied_at_instants: bool,
+    /// Whether something unsafe was met between grouped instants, before the goal.
     pub unsafe_between: bool,
     /// The number of grouped steps taken.
     pub steps: u64,
@@ -95,6 +99,7 @@ impl<'a> Simulation<'a> {
             inputs: InputCheck::new(problem.step_input()),
             goal: lookups(problem.goal()),
             avoid: lookups(problem.unsafe_regions()),
+            avoids_outside: problem.outside_is_unsafe(),
             noise,
             most_steps: problem.horizon().unwrap_or(most_steps),
         }
@@ -170,6 +175,7 @@ impl<'a> Simulation<'a> {
         let mut outcome = RunOutcome {
             end: End::Unfinished,
             satisfied: false,
+            satisfied_at_instants: false,
             unsafe_between: false,
             steps: 0,
             violations: 0,
@@ -180,7 +186,8 @@ impl<'a> Simulation<'a> {
             if !decided && contains(&self.avoid, &scratch.x) {
                 decided = true;
             } else if !decided && contains(&self.goal, &scratch.x) {
-                (decided, outcome.satisfied) = (true, true);
+                (decided, outcome.satisfied_at_instants) = (true, true);
+                outcome.satisfied = !outcome.unsafe_between;
             }
             let decision = self.controller.control(&scratch.x, outcome.steps, &mut scratch.u);
             let step = outcome.steps * d as u64;
@@ -217,10 +224,17 @@ impl<'a> Simulation<'a> {
                 see(Moment { step, x: &scratch.x, u: Some(u), decision });
                 self.plant.step(&scratch.x, u, &scratch.noise[i * n..(i + 1) * n], &mut scratch.next);
                 std::mem::swap(&mut scratch.x, &mut scratch.next);
-                outcome.unsafe_between |= i + 1 < d && contains(&self.avoid, &scratch.x);
+                outcome.unsafe_between |= !decided && i + 1 < d && self.is_unsafe(&scratch.x);
             }
             outcome.steps += 1;
         }
+    }
+}
+
+impl Simulation<'_> {
+    /// Whether a state between grouped instants is unsafe.
+    fn is_unsafe(&self, x: &[f64]) -> bool {
+        contains(&self.avoid, x) || self.avoids_outside && self.controller.cell(x).is_none()
     }
 }
 

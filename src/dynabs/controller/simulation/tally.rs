@@ -2,6 +2,7 @@
 
 use super::Violation;
 use super::runs::{End, RunOutcome};
+use crate::guarantee::Safety;
 use crate::statistics::{lower_bound, upper_bound};
 use serde::Serialize;
 
@@ -10,10 +11,14 @@ use serde::Serialize;
 pub struct Tally {
     /// The number of runs.
     pub runs: u64,
-    /// Runs that met the goal region at a grouped instant and the unsafe region at none before.
+    /// Runs that met the goal region at a grouped instant and nothing unsafe at any original step before.
     pub satisfied: u64,
+    /// Runs that met the goal region at a grouped instant and the unsafe region at no such instant before.
+    pub satisfied_at_instants: u64,
     /// Runs that ended in a goal cell.
     pub reached: u64,
+    /// Those of them that met nothing unsafe at any original step.
+    pub reached_safely: u64,
     /// Runs that ended in a cell that meets the unsafe region.
     pub r#unsafe: u64,
     /// Runs that left the partition.
@@ -26,10 +31,8 @@ pub struct Tally {
     pub unfinished: u64,
     /// Unfinished runs that had not met the goal region before.
     pub open: u64,
-    /// Runs that met the unsafe region between grouped instants.
+    /// Runs that met something unsafe between grouped instants, before the goal.
     pub unsafe_between: u64,
-    /// Those of them that were satisfied nevertheless.
-    pub satisfied_unsafe_between: u64,
     /// The number of grouped steps of all runs: as often the controller was asked.
     pub steps: u64,
     /// Inputs of one step that were outside `U`: 0, or there is a mistake in this program.
@@ -55,6 +58,8 @@ impl Tally {
     pub(super) fn add(&mut self, outcome: RunOutcome) {
         self.runs += 1;
         self.satisfied += u64::from(outcome.satisfied);
+        self.satisfied_at_instants += u64::from(outcome.satisfied_at_instants);
+        self.reached_safely += u64::from(outcome.end == End::Reached && !outcome.unsafe_between);
         let counter = match outcome.end {
             End::Reached => &mut self.reached,
             End::Unsafe => &mut self.r#unsafe,
@@ -64,9 +69,8 @@ impl Tally {
             End::Unfinished => &mut self.unfinished,
         };
         *counter += 1;
-        self.open += u64::from(outcome.end == End::Unfinished && !outcome.satisfied);
+        self.open += u64::from(outcome.end == End::Unfinished && !outcome.satisfied_at_instants);
         self.unsafe_between += u64::from(outcome.unsafe_between);
-        self.satisfied_unsafe_between += u64::from(outcome.unsafe_between && outcome.satisfied);
         self.steps += outcome.steps;
         self.violations += outcome.violations;
         if self.first_violation.is_none() {
@@ -80,7 +84,9 @@ impl Tally {
         Self {
             runs: self.runs + other.runs,
             satisfied: self.satisfied + other.satisfied,
+            satisfied_at_instants: self.satisfied_at_instants + other.satisfied_at_instants,
             reached: self.reached + other.reached,
+            reached_safely: self.reached_safely + other.reached_safely,
             r#unsafe: self.r#unsafe + other.r#unsafe,
             outside: self.outside + other.outside,
             no_action: self.no_action + other.no_action,
@@ -88,24 +94,31 @@ impl Tally {
             unfinished: self.unfinished + other.unfinished,
             open: self.open + other.open,
             unsafe_between: self.unsafe_between + other.unsafe_between,
-            satisfied_unsafe_between: self.satisfied_unsafe_between + other.satisfied_unsafe_between,
             steps: self.steps + other.steps,
             violations: self.violations + other.violations,
             first_violation: first.min_by_key(|violation| violation.run),
         }
     }
 
-    /// How often the task was satisfied, in the true sets at grouped instants.
+    /// How often the task was satisfied, in the true sets, safety being looked at as `safety` says.
     ///
     /// The two-sided Clopper–Pearson interval with confidence `1 − alpha`; a run that was given up may yet
     /// have succeeded, so it counts for the upper end.
-    pub fn satisfaction(&self, alpha: f64) -> Frequency {
-        self.frequency(self.satisfied, self.open, alpha)
+    pub fn satisfaction(&self, safety: Safety, alpha: f64) -> Frequency {
+        let satisfied = match safety {
+            Safety::EveryStep => self.satisfied,
+            Safety::GroupedInstants => self.satisfied_at_instants,
+        };
+        self.frequency(satisfied, self.open, alpha)
     }
 
     /// How often a goal cell was reached, as the abstraction counts.
-    pub fn reaching(&self, alpha: f64) -> Frequency {
-        self.frequency(self.reached, self.unfinished, alpha)
+    pub fn reaching(&self, safety: Safety, alpha: f64) -> Frequency {
+        let reached = match safety {
+            Safety::EveryStep => self.reached_safely,
+            Safety::GroupedInstants => self.reached,
+        };
+        self.frequency(reached, self.unfinished, alpha)
     }
 
     fn frequency(&self, successes: u64, open: u64, alpha: f64) -> Frequency {
@@ -130,7 +143,15 @@ mod tests {
     use super::*;
 
     fn outcome(end: End, satisfied: bool) -> RunOutcome {
-        RunOutcome { end, satisfied, unsafe_between: false, steps: 3, violations: 0, first_violation: None }
+        RunOutcome {
+            end,
+            satisfied,
+            satisfied_at_instants: satisfied,
+            unsafe_between: false,
+            steps: 3,
+            violations: 0,
+            first_violation: None,
+        }
     }
 
     #[test]
@@ -141,16 +162,16 @@ mod tests {
             (0..bad).for_each(|_| tally.add(outcome(End::Over, false)));
             tally
         };
-        assert!(!tally(89, 11).satisfaction(0.01).contradicts(0.95));
-        assert!(tally(890, 110).satisfaction(0.01).contradicts(0.95));
-        assert!(!tally(890, 110).satisfaction(0.01).contradicts(0.90));
+        assert!(!tally(89, 11).satisfaction(Safety::EveryStep, 0.01).contradicts(0.95));
+        assert!(tally(890, 110).satisfaction(Safety::EveryStep, 0.01).contradicts(0.95));
+        assert!(!tally(890, 110).satisfaction(Safety::EveryStep, 0.01).contradicts(0.90));
     }
 
     #[test]
     fn runs_that_were_given_up_contradict_nothing() {
         let mut tally = Tally::default();
         (0..1000).for_each(|_| tally.add(outcome(End::Unfinished, false)));
-        let frequency = tally.satisfaction(0.01);
+        let frequency = tally.satisfaction(Safety::EveryStep, 0.01);
         assert_eq!((frequency.frequency, frequency.lower, frequency.upper), (0.0, 0.0, 1.0));
         assert!(!frequency.contradicts(1.0));
     }

@@ -6,6 +6,7 @@
 mod read;
 mod write;
 
+pub(crate) use read::begins;
 pub use read::{import, import_with_progress};
 pub use write::BmdpWriter;
 pub(in crate::formats) use write::padded_choices;

@@ -5,7 +5,7 @@ use crate::formats::import::{
     Fields, ImportError, Imported, Lines, LooseTransitions, Source, TransitionHeader, Warning, open,
 };
 use crate::model::{Labels, ModelKind, StateId, StateSet, StateVariables};
-use std::io::BufRead;
+use std::io::{BufRead, Read};
 use std::path::Path;
 
 /// The shortest transition with its line end, `0 0 0 1 1`.
@@ -66,6 +66,14 @@ pub fn import_with_progress(
     let mut imported = transitions.into_model(ModelKind::Imdp, initial, labels, StateVariables::default())?;
     imported.warnings.push(Warning::NoInitialState { path: path.to_owned() });
     Ok(imported)
+}
+
+/// Whether a file begins as one of this format does, with a line that is a number.
+pub(crate) fn begins(path: &Path) -> bool {
+    let Ok(Source { reader, .. }) = open(path) else { return false };
+    let mut line = String::new();
+    // Whatever is longer is no number.
+    reader.take(32).read_line(&mut line).is_ok() && line.trim().parse::<u64>().is_ok()
 }
 
 fn read_line(

@@ -166,6 +166,11 @@ pub enum Warning {
         /// Where it was looked for.
         path: PathBuf,
     },
+    /// There is no specification: no state has a label.
+    NoSpecification {
+        /// Where it was looked for.
+        path: PathBuf,
+    },
     /// The format names no initial state: it is state 0.
     NoInitialState {
         /// The file.
@@ -201,6 +206,11 @@ impl fmt::Display for Warning {
             Self::NoLabelFile { path } => {
                 write!(f, "there is no {}: the initial state is 0, and no state has a label", path.display())
             }
+            Self::NoSpecification { path } => write!(
+                f,
+                "there is no {}: no state has a label; ask for states by their numbers from 0, as in F x=206",
+                path.display()
+            ),
             Self::NoInitialState { path } => {
                 write!(f, "{}: the format names no initial state: it is 0", path.display())
             }

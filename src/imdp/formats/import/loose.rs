@@ -82,8 +82,12 @@ impl LooseTransitions {
             u32::try_from(text.len()).map_err(|_| fields.fault("less than 4 GiB of intervals"))
         };
         let start = end(&self.text)?;
-        let bounds = read_any_interval(&mut Cursor::new(interval, 0), &mut self.text);
+        let mut cursor = Cursor::new(interval, 0);
+        let bounds = read_any_interval(&mut cursor, &mut self.text);
         let bounds = bounds.map_err(|fault| fields.fault(fault.expected))?;
+        if !cursor.at_end() {
+            return Err(fields.fault("a blank or the end of the line after a probability"));
+        }
         let text = (start, end(&self.text)?);
         let action = action.map_or(ActionNames::UNNAMED, |name| self.action(name));
         let number = fields.line();

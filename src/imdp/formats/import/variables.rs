@@ -78,7 +78,11 @@ pub(in crate::formats) fn read_value(cursor: &mut Cursor<'_>) -> Result<Value, B
                 let outcome = read_integer(&mut Cursor::new(&line, 0));
                 Value::Int(outcome.map_err(|fault| cursor.fault_at(start, fault.expected))?)
             } else {
-                Value::Other
+                let number = std::str::from_utf8(text).ok().and_then(|text| text.parse::<f64>().ok());
+                match number.filter(|number| number.is_finite()) {
+                    Some(_) => Value::Other,
+                    None => return Err(cursor.fault_at(start, "a number, true or false")),
+                }
             }
         }
     })

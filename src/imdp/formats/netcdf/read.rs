@@ -88,8 +88,12 @@ impl Reader<'_> {
             ModelKind::Idtmc => (0..=states).collect(),
         };
         let mut transitions = self.assemble(states, &of_state, &lower, &upper)?;
-        let specification = Specification::read(&self.path.with_extension("json"), states)?;
-        let warnings = std::mem::take(&mut transitions.warnings);
+        let beside = self.path.with_extension("json");
+        let specification = Specification::read(&beside, states)?;
+        let mut warnings = std::mem::take(&mut transitions.warnings);
+        if specification.property.is_empty() {
+            warnings.push(Warning::NoSpecification { path: beside });
+        }
         let initial = self.initial(states)?;
         let mut imported =
             transitions.into_model(kind, initial, specification.labels, StateVariables::default())?;

@@ -42,6 +42,23 @@ pub(super) fn lower_covers_one(row: crate::model::Row<'_>, inside: impl Fn(u32) 
         != Ordering::Less
 }
 
+/// Whether every distribution of a row gives the successor at a position positive probability.
+pub(in crate::solver) fn certain(row: crate::model::Row<'_>, position: usize) -> bool {
+    let itself = row.successors[position];
+    row.lower[position] > 0.0 || (row.upper[position] > 0.0 && !upper_covers_one(row, |s| s != itself))
+}
+
+/// Whether some distribution that stays in a set gives the successor at a position positive probability; the row is
+/// known to have a distribution that stays.
+pub(in crate::solver) fn possible_within(
+    row: crate::model::Row<'_>,
+    position: usize,
+    inside: impl Fn(u32) -> bool + Clone,
+) -> bool {
+    let itself = row.successors[position];
+    row.upper[position] > 0.0 && !lower_covers_one(row, move |s| inside(s) && s != itself)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

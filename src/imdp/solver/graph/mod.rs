@@ -8,6 +8,7 @@ mod tarjan;
 mod zero_one;
 
 pub(super) use choice_tree::ChoiceTree;
+pub(super) use decide::{certain, possible_within};
 pub(super) use end_components::{Candidates, can_stay, end_components};
 pub(super) use ranking::ranks;
 pub(super) use tarjan::strong_components;

@@ -89,5 +89,5 @@ fn with_suffix(stem: &Path, suffix: &str) -> PathBuf {
 /// The file, or the compressed one in its place.
 fn existing(path: &Path) -> Option<PathBuf> {
     let packed = [".gz", ".xz"].map(|suffix| with_suffix(path, suffix));
-    std::iter::once(path.to_owned()).chain(packed).find(|path| path.is_file())
+    std::iter::once(path.to_owned()).chain(packed).find(|path| path.exists())
 }

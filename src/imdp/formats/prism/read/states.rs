@@ -118,12 +118,13 @@ impl Table {
             if cursor.peek() == b')' {
                 return Err(cursor.fault_here("the value of the next variable"));
             }
+            let at = cursor.offset();
             let value = read_value(cursor)?;
             if self.columns.len() == variable {
                 self.columns.push(Column::new(&value, self.states as usize));
             }
             if let Some(column) = self.columns.get_mut(variable) {
-                column.set(state, value);
+                column.set(state, value).map_err(|expected| cursor.fault_at(at, expected))?;
             }
             end_of_item(cursor, "`,` and the value of the next variable, or `)`")?;
         }
@@ -141,11 +142,14 @@ impl Column {
         }
     }
 
-    fn set(&mut self, state: usize, value: Value) {
+    fn set(&mut self, state: usize, value: Value) -> Result<(), &'static str> {
         match (&mut *self, value) {
             (Self::Known(VariableValues::Bool(set)), Value::Bool(value)) => set.set(state, value),
             (Self::Known(VariableValues::Int(values)), Value::Int(value)) => values[state] = value,
+            (Self::Known(VariableValues::Bool(_)), _) => return Err("`true` or `false`"),
+            (_, Value::Bool(_)) => return Err("a number"),
             _ => *self = Self::Other,
         }
+        Ok(())
     }
 }

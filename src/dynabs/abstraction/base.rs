@@ -1,0 +1,67 @@
+//! What a model is built on: where noise lands, in which windows, and which actions are enabled.
+
+use super::AbstractionError;
+use super::enabling::Enabling;
+use super::hazards::Hazards;
+use super::landings::Placements;
+use super::pac::Prepared;
+use super::steering::Steering;
+use super::windows::Windows;
+use crate::Warning;
+use crate::problem::{Probabilities, Problem};
+use imdp::progress::Progress;
+
+/// All that is known before the choices of the model are.
+pub(super) struct Base<'a> {
+    pub(super) placements: Placements<'a>,
+    pub(super) intervals: Intervals,
+    pub(super) enabling: Enabling,
+}
+
+/// How intervals are to be computed.
+pub(super) enum Intervals {
+    /// Jointly valid, with these levels and windows.
+    Pac(Box<Prepared>),
+    /// Those of the published tool, each with this failure probability.
+    Reference(f64),
+}
+
+impl Intervals {
+    /// The windows that rows are made with; none in `reference` mode.
+    fn windows(&self) -> Option<&Windows> {
+        match self {
+            Self::Pac(prepared) => Some(prepared.windows()),
+            Self::Reference(_) => None,
+        }
+    }
+
+    /// A warning if samples contradict the windows.
+    pub(super) fn contradiction(&self) -> Option<Warning> {
+        self.windows().and_then(Windows::contradiction)
+    }
+}
+
+impl<'a> Base<'a> {
+    pub(super) fn new(
+        problem: &Problem,
+        steering: &'a Steering,
+        progress: &dyn Progress,
+    ) -> Result<Self, AbstractionError> {
+        let (law, targets) = (&steering.law, &steering.targets);
+        let is_pac = matches!(problem.probabilities(), Probabilities::Pac { .. });
+        let tolerance = is_pac.then(|| law.steering_error(&steering.extent));
+        let placements = Placements::new(problem.grid(), targets, tolerance);
+        let hazards = Hazards::in_between(problem);
+        let intervals = match problem.probabilities() {
+            Probabilities::Pac { beta, sweep, discard } => {
+                let statement = (beta, *sweep, *discard as usize);
+                let prepared = Prepared::new(problem, statement, targets, &placements, hazards.as_ref())?;
+                Intervals::Pac(Box::new(prepared))
+            }
+            Probabilities::Reference { beta_per_interval } => Intervals::Reference(*beta_per_interval),
+        };
+        let hazards = hazards.as_ref().zip(intervals.windows());
+        let enabling = Enabling::new(problem, steering, hazards, progress)?;
+        Ok(Self { placements, intervals, enabling })
+    }
+}

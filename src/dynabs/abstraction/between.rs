@@ -1,0 +1,182 @@
+//! Which actions keep clear of what is unsafe at the steps between grouped instants.
+
+use super::enabled::EnabledActions;
+use super::hazards::Hazards;
+use super::steering::Steering;
+use super::windows::Windows;
+use crate::partition::{CellId, Grid};
+use crate::problem::Problem;
+use imdp::model::{RowId, RowRange};
+use imdp::numeric::{UNIT_ROUNDOFF, to_f64_up};
+use imdp::progress::Progress;
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+
+/// Cells per parallel task.
+const CELLS_PER_TASK: usize = 64;
+
+/// The test of actions at the steps in between.
+pub(super) struct Between<'a> {
+    hazards: &'a Hazards,
+    grid: &'a Grid,
+    centers: Vec<Vec<f64>>,
+    steps: Vec<Step>,
+}
+
+/// Where the state is after a step in between, with noise of the window: a box for every cell and target.
+struct Step {
+    /// `T d + r`, target after target.
+    by_target: Vec<f64>,
+    /// `S`, `n×n`.
+    state: DMatrix<f64>,
+    /// From `T d + S c + r` to the lower and to the upper corner, for a cell with center `c`.
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+}
+
+impl<'a> Between<'a> {
+    /// The test for the largest of the windows.
+    pub(super) fn new(
+        problem: &'a Problem,
+        hazards: &'a Hazards,
+        steering: &Steering,
+        windows: &Windows,
+    ) -> Self {
+        let grid = problem.grid();
+        let steps = (1..problem.group_steps()).map(|i| Step::new(problem, steering, windows, i));
+        Self {
+            hazards,
+            grid,
+            centers: grid.axes().iter().map(|axis| axis.centers()).collect(),
+            steps: steps.collect(),
+        }
+    }
+
+    /// The actions, out of those `enabled` in each of `cells`, that keep clear of everything unsafe.
+    pub(super) fn filter(
+        &self,
+        cells: &[CellId],
+        enabled: &EnabledActions,
+        progress: &dyn Progress,
+    ) -> EnabledActions {
+        let starts: Vec<usize> = (enabled.ranges_per_cell.iter())
+            .scan(0, |end, &count| {
+                let start = *end;
+                *end += count as usize;
+                Some(start)
+            })
+            .collect();
+        let of_cell = |i: usize| &enabled.ranges[starts[i]..starts[i] + enabled.ranges_per_cell[i] as usize];
+        let parts: Vec<EnabledActions> = cells
+            .par_chunks(CELLS_PER_TASK)
+            .enumerate()
+            .map(|(task, chunk)| {
+                let mut found = EnabledActions::default();
+                let mut probe = Probe::new(self);
+                for (i, &cell) in (task * CELLS_PER_TASK..).zip(chunk) {
+                    let before = found.ranges.len();
+                    probe.start_in(cell);
+                    of_cell(i).iter().for_each(|range| probe.push_clear(range, &mut found.ranges));
+                    found.ranges_per_cell.push((found.ranges.len() - before) as u32);
+                }
+                progress.advance(chunk.len() as u64);
+                found
+            })
+            .collect();
+        EnabledActions::concatenated(parts)
+    }
+}
+
+impl Step {
+    /// The step after `i` of the steps of a group.
+    fn new(problem: &Problem, steering: &Steering, windows: &Windows, i: usize) -> Self {
+        let (n, targets) = (problem.grid().dimension(), &steering.targets);
+        let image = steering.law.partial_image(problem.step_system(), i, &steering.extent);
+        let mut by_target = Vec::with_capacity(targets.len() * n);
+        let mut point = vec![0.0; n];
+        for target in 0..targets.len() {
+            targets.point(target, &mut point);
+            by_target.extend(
+                (0..n)
+                    .map(|j| (0..n).fold(image.constant[j], |sum, k| sum + image.target[(j, k)] * point[k])),
+            );
+        }
+        let half_widths: Vec<f64> =
+            problem.grid().axes().iter().map(|axis| 0.5 * to_f64_up(axis.width())).collect();
+        let (noise_lower, noise_upper) = windows.between(0, i - 1);
+        let reach = |j: usize, noise: f64| {
+            let cell: f64 = (0..n).map(|k| image.state[(j, k)].abs() * half_widths[k]).sum();
+            let rounding = 4.0 * (n as f64 + 4.0) * UNIT_ROUNDOFF * (cell + noise.abs());
+            cell + image.error[j] + rounding
+        };
+        Self {
+            lower: (0..n).map(|j| noise_lower[j] - reach(j, noise_lower[j])).collect(),
+            upper: (0..n).map(|j| noise_upper[j] + reach(j, noise_upper[j])).collect(),
+            state: image.state,
+            by_target,
+        }
+    }
+}
+
+/// What a task reuses from cell to cell.
+struct Probe<'a> {
+    between: &'a Between<'a>,
+    /// Per step, `S c`.
+    by_cell: Vec<Vec<f64>>,
+    center: Vec<f64>,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+}
+
+impl<'a> Probe<'a> {
+    fn new(between: &'a Between<'a>) -> Self {
+        let zero = vec![0.0; between.grid.dimension()];
+        Self {
+            by_cell: vec![zero.clone(); between.steps.len()],
+            center: zero.clone(),
+            lower: zero.clone(),
+            upper: zero,
+            between,
+        }
+    }
+
+    fn start_in(&mut self, cell: CellId) {
+        for (j, center) in self.center.iter_mut().enumerate() {
+            *center = self.between.centers[j][self.between.grid.coordinate(cell, j) as usize];
+        }
+        for (step, by_cell) in self.between.steps.iter().zip(&mut self.by_cell) {
+            for (j, by_cell) in by_cell.iter_mut().enumerate() {
+                *by_cell = (self.center.iter().enumerate()).map(|(k, c)| step.state[(j, k)] * c).sum();
+            }
+        }
+    }
+
+    /// Adds the parts of a range whose actions are clear.
+    fn push_clear(&mut self, range: &RowRange, ranges: &mut Vec<RowRange>) {
+        let mut open: Option<RowRange> = None;
+        for target in range.rows() {
+            if self.is_clear(target) {
+                open = Some(RowRange { first: open.map_or(target, |run| run.first), last: target });
+            } else {
+                ranges.extend(open.take());
+            }
+        }
+        ranges.extend(open);
+    }
+
+    fn is_clear(&mut self, target: RowId) -> bool {
+        let n = self.center.len();
+        let steps = self.between.steps.iter().zip(&self.by_cell);
+        for (step, by_cell) in steps {
+            let by_target = &step.by_target[target as usize * n..(target as usize + 1) * n];
+            for (j, (by_target, by_cell)) in by_target.iter().zip(by_cell).enumerate() {
+                let middle = by_target + by_cell;
+                (self.lower[j], self.upper[j]) = (middle + step.lower[j], middle + step.upper[j]);
+            }
+            if self.between.hazards.are_met(&self.lower, &self.upper) {
+                return false;
+            }
+        }
+        true
+    }
+}

@@ -1,0 +1,60 @@
+//! Which actions are enabled in which ordinary cells: by the law, and by what is to be avoided in between.
+
+use super::AbstractionError;
+use super::between::Between;
+use super::enabled::EnabledActions;
+use super::hazards::Hazards;
+use super::steering::Steering;
+use super::windows::Windows;
+use crate::partition::{CellId, CellKind};
+use crate::problem::Problem;
+use imdp::progress::Progress;
+
+/// The enabled actions of all ordinary cells.
+pub(super) struct Enabling {
+    /// In the order of the cells.
+    pub(super) actions: EnabledActions,
+    /// Per cell of the partition, whether it is ordinary and the law has no action there: known before any sample.
+    idle: Vec<bool>,
+}
+
+impl Enabling {
+    /// What the law allows; and, where hazards have to be avoided at every step, what keeps clear of them with noise of
+    /// the largest window.
+    pub(super) fn new(
+        problem: &Problem,
+        steering: &Steering,
+        hazards: Option<(&Hazards, &Windows)>,
+        progress: &dyn Progress,
+    ) -> Result<Self, AbstractionError> {
+        let ordinary: Vec<CellId> = (problem.labels().iter())
+            .filter_map(|(cell, kind)| (kind == CellKind::Ordinary).then_some(cell))
+            .collect();
+        progress.start("enabled actions", ordinary.len() as u64);
+        let mut actions = steering.enabled(problem, &ordinary, progress);
+        progress.finish();
+        let is_empty = |actions: &EnabledActions| actions.ranges.is_empty() && !ordinary.is_empty();
+        if is_empty(&actions) {
+            return Err(AbstractionError::NothingEnabled { stabilized: problem.stabilizer().is_some() });
+        }
+        let mut idle = vec![false; problem.grid().num_cells() as usize];
+        for (cell, &count) in ordinary.iter().zip(&actions.ranges_per_cell) {
+            idle[cell.index()] = count == 0;
+        }
+        if let Some((hazards, windows)) = hazards {
+            progress.start("steps in between", ordinary.len() as u64);
+            let between = Between::new(problem, hazards, steering, windows);
+            actions = between.filter(&ordinary, &actions, progress);
+            progress.finish();
+            if is_empty(&actions) {
+                return Err(AbstractionError::NothingClear { group_steps: problem.group_steps() });
+            }
+        }
+        Ok(Self { actions, idle })
+    }
+
+    /// Whether the law has no action in an ordinary cell: whatever the samples.
+    pub(super) fn is_idle(&self, cell: CellId) -> bool {
+        self.idle[cell.index()]
+    }
+}

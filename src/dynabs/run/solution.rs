@@ -1,0 +1,43 @@
+//! The solution that a run holds, and what is wanted of one.
+
+use super::appearance::SOLUTION;
+use super::files::RunFiles;
+use super::open::OpenError;
+use super::write::NATIVE_MODEL;
+use crate::problem::Problem;
+use imdp::model::IntervalMdp;
+use imdp::property::Property;
+use imdp::solution_file;
+use imdp::solver::{Solution, SolverOptions, Status};
+
+/// The most grouped steps for which values are kept.
+const MOST_STEPS: u64 = 60;
+
+/// The most values that are kept for all steps together.
+const MOST_VALUES: u64 = 600_000;
+
+/// What controllers and reports need of a solution: the policy, and values with fewer steps left where they are few.
+pub fn solution_options<'a>(problem: &Problem, options: &SolverOptions<'a>) -> SolverOptions<'a> {
+    let cells = u64::from(problem.grid().num_cells());
+    let steps = problem.horizon().unwrap_or(0).min(MOST_STEPS).min((MOST_VALUES / cells).saturating_sub(1));
+    SolverOptions { policy: true, history: steps as usize, ..*options }
+}
+
+/// Whether a solution is as good as another computation would be.
+pub(super) fn is_final(solution: &Solution) -> bool {
+    solution.policy.is_some()
+        && matches!(solution.status, Status::HorizonReached | Status::Converged | Status::PrecisionLimit)
+}
+
+/// The solution of `property` that a run holds, if it does.
+pub(super) fn stored(
+    files: &RunFiles,
+    property: &Property,
+    model: &IntervalMdp,
+) -> Result<Option<Solution>, OpenError> {
+    let Some(sha256) = files.sha256(NATIVE_MODEL).filter(|_| files.sha256(SOLUTION).is_some()) else {
+        return Ok(None);
+    };
+    let solution = solution_file::read(&files.read(SOLUTION)?, property, model, sha256);
+    solution.map(Some).map_err(|error| OpenError::Solution { path: files.path(SOLUTION), error })
+}

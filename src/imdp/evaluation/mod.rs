@@ -1,0 +1,86 @@
+//! Expressions of PRISM's language on a model: everything that a properties file can ask.
+//!
+//! Formulas are evaluated to the states in which they hold for certain and those in which they may hold: a threshold within
+//! the bounds of a value is not decided. Numbers are exact as long as no probability or reward is involved, and bounds from
+//! then on, rounded outwards in every operation.
+
+mod directions;
+mod error;
+mod exact;
+mod expression;
+mod filter;
+mod interval;
+mod numbers;
+mod operator;
+mod path;
+mod product;
+mod truth;
+
+pub use directions::{Nature, direct};
+pub use error::EvaluationError;
+pub use numbers::Numbers;
+pub use truth::Truth;
+
+use crate::model::{IntervalMdp, StateId};
+use crate::property::{Compound, Verdict};
+use crate::solver::{Policy, SolverOptions, Status};
+use expression::Evaluator;
+
+/// What an expression comes to in every state.
+#[derive(Clone, Debug)]
+pub enum Values {
+    /// A formula: where it holds.
+    Truth(Truth),
+    /// A number.
+    Numbers(Numbers),
+}
+
+/// An expression answered.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    /// What it comes to.
+    pub values: Values,
+    /// How the computations ended: the least satisfactory of all of them.
+    pub status: Status,
+    /// The number of iterations of all of them.
+    pub iterations: u64,
+    /// The policy, if the expression is a single operator and it was asked for.
+    pub policy: Option<Policy>,
+}
+
+impl Evaluation {
+    /// Evaluates an expression.
+    ///
+    /// # Errors
+    /// [`EvaluationError`] if it does not fit the model, or cannot be solved.
+    pub fn new(
+        model: &IntervalMdp,
+        compound: &Compound,
+        nature: Option<Nature>,
+        options: &SolverOptions<'_>,
+    ) -> Result<Self, EvaluationError> {
+        let mut evaluator = Evaluator::new(model, nature, *options);
+        let values = evaluator.values(&compound.root)?;
+        let (status, iterations, policy) = evaluator.finish();
+        Ok(Self { values, status, iterations, policy })
+    }
+
+    /// Bounds on the value in a state; none if it is a formula.
+    pub fn bounds(&self, state: StateId) -> Option<(f64, f64)> {
+        match &self.values {
+            Values::Numbers(numbers) => Some(numbers.bounds(state as usize)),
+            Values::Truth(_) => None,
+        }
+    }
+
+    /// Whether the formula holds in a state; none if it is a number.
+    pub fn verdict(&self, state: StateId) -> Option<Verdict> {
+        match &self.values {
+            Values::Truth(truth) => Some(truth.verdict(state as usize)),
+            Values::Numbers(_) => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

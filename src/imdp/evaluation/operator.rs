@@ -1,0 +1,150 @@
+//! The operators `P` and `R`.
+
+use super::expression::{Evaluator, compare};
+use super::{EvaluationError, Numbers, Truth, directions};
+use crate::model::RewardStructure;
+use crate::numeric::to_f64;
+use crate::property::{
+    Asked, Constant, Measured, Node, NodeKind, Operator, Relation, Resolution, RewardPath, StepBound,
+    Structure, ThresholdComparison, constant,
+};
+use crate::solver::{RewardQuery, Solution, SolverOptions, Status, ValueBounds, solve_rewards};
+use num_traits::ToPrimitive;
+
+impl Evaluator<'_> {
+    /// `P>=p […]`: whether it holds whatever policy and nature do.
+    pub(super) fn bounded_operator(&mut self, operator: &Operator) -> Result<Truth, EvaluationError> {
+        let Asked::ForAll(comparison, threshold) = &operator.asked else {
+            return Ok(Truth::constant(false, self.model.num_states()));
+        };
+        let resolution = if comparison.is_lower_bound() { Resolution::Pminmin } else { Resolution::Pmaxmax };
+        let values = Numbers::Bounds(self.measured(&operator.measured, resolution)?);
+        let threshold = self.numbers(threshold)?;
+        let comparison = match comparison {
+            ThresholdComparison::AtLeast => Relation::GreaterEqual,
+            ThresholdComparison::Above => Relation::Greater,
+            ThresholdComparison::AtMost => Relation::LessEqual,
+            ThresholdComparison::Below => Relation::Less,
+        };
+        Ok(compare(comparison, &values, &threshold))
+    }
+
+    /// `Pmaxmin=? […]` and the like: bounds on the value.
+    pub(super) fn operator(&mut self, operator: &Operator) -> Result<ValueBounds, EvaluationError> {
+        let Asked::Value(optimum) = operator.asked else {
+            let states = self.model.num_states();
+            return Ok(ValueBounds { lower: vec![0.0; states], upper: vec![f64::INFINITY; states] });
+        };
+        let resolution = directions::resolution(optimum, self.model, self.nature)?;
+        self.measured(&operator.measured, resolution)
+    }
+
+    fn measured(
+        &mut self,
+        measured: &Measured,
+        resolution: Resolution,
+    ) -> Result<ValueBounds, EvaluationError> {
+        self.operators += 1;
+        match measured {
+            Measured::Probability(path) => self.probability(path, resolution),
+            Measured::Reward(structure, path) => self.reward(structure, path, resolution),
+        }
+    }
+
+    fn reward(
+        &mut self,
+        structure: &Structure,
+        path: &RewardPath,
+        resolution: Resolution,
+    ) -> Result<ValueBounds, EvaluationError> {
+        let model = self.model;
+        let rewards = find(model.rewards(), structure)?;
+        let solve = |query: &RewardQuery<'_>, options: &SolverOptions<'_>| {
+            solve_rewards(model, rewards, query, resolution, options)
+        };
+        match path {
+            RewardPath::Reach(node) => {
+                let NodeKind::Temporal(_, _, operand) = &node.kind else {
+                    return Ok(self.nothing_known());
+                };
+                let goal = self.truth(operand)?;
+                if goal.is_exact() {
+                    let solution = solve(&RewardQuery::Reach(&goal.must), &self.options)?;
+                    return Ok(self.note(solution));
+                }
+                // The later the goal is met, the more is earned.
+                let lower = solve(&RewardQuery::Reach(&goal.may), &self.options)?;
+                let upper = solve(&RewardQuery::Reach(&goal.must), &self.options)?;
+                let (lower, upper) = (self.note(lower).lower, self.note(upper).upper);
+                Ok(ValueBounds { lower, upper })
+            }
+            RewardPath::Cumulative(bound, factor) => {
+                let steps = bound.as_ref().map(steps);
+                let discount = factor.as_ref().map_or(1.0, |factor| number(factor));
+                let solution = solve(&RewardQuery::Cumulative { steps, discount }, &self.options)?;
+                Ok(self.note(solution))
+            }
+            RewardPath::Instantaneous(node) => {
+                let solution = solve(&RewardQuery::Instantaneous(number(node) as u64), &self.options)?;
+                Ok(self.note(solution))
+            }
+        }
+    }
+
+    /// Takes note of how a computation ended, and hands on its values.
+    pub(super) fn note(&mut self, solution: Solution) -> ValueBounds {
+        self.iterations += solution.iterations;
+        if rank(solution.status) > rank(self.status) {
+            self.status = solution.status;
+        }
+        self.policy = solution.policy;
+        solution.values
+    }
+
+    fn nothing_known(&self) -> ValueBounds {
+        let states = self.model.num_states();
+        ValueBounds { lower: vec![0.0; states], upper: vec![f64::INFINITY; states] }
+    }
+}
+
+/// How unsatisfactory an ending is.
+fn rank(status: Status) -> u8 {
+    match status {
+        Status::HorizonReached => 0,
+        Status::Converged => 1,
+        Status::PrecisionLimit => 2,
+        Status::IterationLimit => 3,
+        Status::TimeLimit => 4,
+        Status::Interrupted => 5,
+    }
+}
+
+/// The number of steps in `<=k` or `<k`, checked when it was read.
+pub(super) fn steps(bound: &StepBound) -> u64 {
+    (number(&bound.steps) as u64).saturating_sub(u64::from(bound.is_strict))
+}
+
+fn number(node: &Node) -> f64 {
+    constant(node).and_then(Constant::number).map_or(0.0, |value| to_f64(&value))
+}
+
+fn find<'m>(
+    rewards: &'m crate::model::Rewards,
+    structure: &Structure,
+) -> Result<&'m RewardStructure, EvaluationError> {
+    let (found, text) = match structure {
+        Structure::First => (rewards.nth(0), "at all".to_owned()),
+        Structure::Name(name) => (rewards.get(name), format!("\"{name}\"")),
+        Structure::Number(node) => {
+            let number =
+                constant(node).and_then(Constant::number).and_then(|value| value.to_integer().to_usize());
+            let number = number.unwrap_or(0);
+            (number.checked_sub(1).and_then(|index| rewards.nth(index)), number.to_string())
+        }
+    };
+    found.ok_or_else(|| {
+        let known: Vec<_> = rewards.iter().map(|structure| format!("\"{}\"", structure.name)).collect();
+        let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+        EvaluationError::UnknownRewards { found: text, known }
+    })
+}

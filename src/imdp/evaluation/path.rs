@@ -1,0 +1,203 @@
+//! The probability of a path formula.
+
+use super::expression::Evaluator;
+use super::operator::steps;
+use super::{EvaluationError, Truth};
+use crate::automaton::Ltl;
+use crate::property::{
+    BinaryOperator, Node, NodeKind, Resolution, StepBounds, TemporalOperator, UntilOperator,
+};
+use crate::solver::{Event, ValueBounds, solve, solve_delayed};
+
+/// `safe U[first, last] goal`
+struct PathEvent {
+    safe: Truth,
+    goal: Truth,
+    first: u64,
+    last: Option<u64>,
+}
+
+impl Evaluator<'_> {
+    /// Bounds on the probability of a path formula.
+    pub(super) fn probability(
+        &mut self,
+        path: &Node,
+        resolution: Resolution,
+    ) -> Result<ValueBounds, EvaluationError> {
+        match &path.kind {
+            NodeKind::Not(operand) => {
+                return Ok(self.probability(operand, resolution.flipped())?.complement());
+            }
+            NodeKind::Temporal(operator, bounds, operand) if !is_path(operand) => {
+                let operand = self.truth(operand)?;
+                if *operator == TemporalOperator::Next {
+                    return self.next(&operand, resolution);
+                }
+                let always = Truth::constant(true, self.model.num_states());
+                let (first, last) = range(bounds);
+                return match operator {
+                    TemporalOperator::Globally => {
+                        let event = PathEvent { safe: always, goal: operand.not(), first, last };
+                        Ok(self.event(&event, resolution.flipped())?.complement())
+                    }
+                    _ => self.event(&PathEvent { safe: always, goal: operand, first, last }, resolution),
+                };
+            }
+            NodeKind::Until(operator, bounds, operands) if !operands.iter().any(is_path) => {
+                let (left, right) = (self.truth(&operands[0])?, self.truth(&operands[1])?);
+                let (first, last) = range(bounds);
+                return match operator {
+                    UntilOperator::Until => {
+                        self.event(&PathEvent { safe: left, goal: right, first, last }, resolution)
+                    }
+                    // `a W b` fails when neither holds before `b` has held.
+                    UntilOperator::Weak if first == 0 => {
+                        let (left, right) = (left.not(), right.not());
+                        let event = PathEvent { goal: left.and(&right), safe: right, first, last };
+                        Ok(self.event(&event, resolution.flipped())?.complement())
+                    }
+                    // `a R b` is the negation of `!a U !b`; so is a weak until whose first steps do not count.
+                    UntilOperator::Release => {
+                        let event = PathEvent { safe: left.not(), goal: right.not(), first, last };
+                        Ok(self.event(&event, resolution.flipped())?.complement())
+                    }
+                    UntilOperator::Weak => Err(crate::property::PropertyError::LateWeakUntil.into()),
+                };
+            }
+            _ => {}
+        }
+        let mut propositions = vec![];
+        let formula = self.formula(path, &mut propositions)?;
+        self.omega(&formula, &propositions, resolution)
+    }
+
+    fn next(&mut self, goal: &Truth, resolution: Resolution) -> Result<ValueBounds, EvaluationError> {
+        let lower = solve(self.model, &Event::Next { goal: &goal.must }, resolution, &self.options)?;
+        if goal.is_exact() {
+            return Ok(self.note(lower));
+        }
+        let upper = solve(self.model, &Event::Next { goal: &goal.may }, resolution, &self.options)?;
+        let (lower, upper) = (self.note(lower).lower, self.note(upper).upper);
+        Ok(ValueBounds { lower, upper })
+    }
+
+    fn event(&mut self, event: &PathEvent, resolution: Resolution) -> Result<ValueBounds, EvaluationError> {
+        let PathEvent { safe, goal, first, last } = event;
+        let until = |safe, goal, this: &Self| match first {
+            0 => solve(this.model, &Event::Until { safe, goal, steps: *last }, resolution, &this.options),
+            _ => solve_delayed(this.model, (safe, goal), (*first, *last), resolution, &this.options),
+        };
+        // More safe states and more goal states make the event more probable.
+        let lower = until(&safe.must, &goal.must, self)?;
+        if safe.is_exact() && goal.is_exact() {
+            return Ok(self.note(lower));
+        }
+        let upper = until(&safe.may, &goal.may, self)?;
+        let (lower, upper) = (self.note(lower).lower, self.note(upper).upper);
+        Ok(ValueBounds { lower, upper })
+    }
+
+    /// A path formula over propositions, which are collected.
+    fn formula(&mut self, node: &Node, propositions: &mut Vec<Truth>) -> Result<Ltl, EvaluationError> {
+        if !is_path(node) {
+            let truth = self.truth(node)?;
+            let known = propositions.iter().position(|other| *other == truth);
+            let index = known.unwrap_or_else(|| {
+                propositions.push(truth);
+                propositions.len() - 1
+            });
+            return Ok(Ltl::Proposition(index as u32));
+        }
+        let mut boxed = |node: &Node, this: &mut Self| this.formula(node, propositions).map(Box::new);
+        Ok(match &node.kind {
+            NodeKind::Not(operand) => Ltl::Not(boxed(operand, self)?),
+            NodeKind::And(operands) => Ltl::And(
+                operands.iter().map(|node| self.formula(node, propositions)).collect::<Result<_, _>>()?,
+            ),
+            NodeKind::Or(operands) => Ltl::Or(
+                operands.iter().map(|node| self.formula(node, propositions)).collect::<Result<_, _>>()?,
+            ),
+            NodeKind::Binary(operator, left, right) => {
+                let (left, right) = (self.formula(left, propositions)?, self.formula(right, propositions)?);
+                let not = |formula: &Ltl| Ltl::Not(Box::new(formula.clone()));
+                match operator {
+                    BinaryOperator::Implies => Ltl::Or(vec![not(&left), right]),
+                    _ => Ltl::Or(vec![Ltl::And(vec![not(&left), not(&right)]), Ltl::And(vec![left, right])]),
+                }
+            }
+            NodeKind::Temporal(operator, bounds, operand) => {
+                let operand = self.formula(operand, propositions)?;
+                temporal(*operator, bounds, operand)
+            }
+            NodeKind::Until(operator, bounds, operands) => {
+                let left = self.formula(&operands[0], propositions)?;
+                let right = self.formula(&operands[1], propositions)?;
+                until(*operator, bounds, left, right)
+            }
+            _ => Ltl::True,
+        })
+    }
+}
+
+/// So many steps are unfolded at most; more are refused when the automaton becomes too large.
+fn range(bounds: &StepBounds) -> (u64, Option<u64>) {
+    let first = bounds.lower.as_ref().map_or(0, |bound| {
+        let plain = crate::property::StepBound { is_strict: false, ..(**bound).clone() };
+        steps(&plain) + u64::from(bound.is_strict)
+    });
+    (first, bounds.upper.as_ref().map(|bound| steps(bound)))
+}
+
+fn next(formula: Ltl, steps: u64) -> Ltl {
+    (0..steps).fold(formula, |formula, _| Ltl::Next(Box::new(formula)))
+}
+
+/// `F`, `G` and `X`, with bounds unfolded.
+fn temporal(operator: TemporalOperator, bounds: &StepBounds, operand: Ltl) -> Ltl {
+    let (first, last) = range(bounds);
+    let inside = match (operator, last) {
+        (TemporalOperator::Next, _) => Ltl::Next(Box::new(operand)),
+        (TemporalOperator::Finally, None) => Ltl::Finally(Box::new(operand)),
+        (TemporalOperator::Globally, None) => Ltl::Globally(Box::new(operand)),
+        (TemporalOperator::Finally, Some(last)) => (first..last)
+            .fold(operand.clone(), |formula, _| Ltl::Or(vec![operand.clone(), Ltl::Next(Box::new(formula))])),
+        (TemporalOperator::Globally, Some(last)) => (first..last).fold(operand.clone(), |formula, _| {
+            Ltl::And(vec![operand.clone(), Ltl::Next(Box::new(formula))])
+        }),
+    };
+    next(inside, first)
+}
+
+/// `U`, `W` and `R`, with bounds unfolded.
+fn until(operator: UntilOperator, bounds: &StepBounds, left: Ltl, right: Ltl) -> Ltl {
+    let (first, last) = range(bounds);
+    let not = |formula: Ltl| Ltl::Not(Box::new(formula));
+    match operator {
+        UntilOperator::Release => not(until(UntilOperator::Until, bounds, not(left), not(right))),
+        UntilOperator::Weak if bounds.is_none() => Ltl::Weak(Box::new(left), Box::new(right)),
+        // `a W<=k b` is `a U<=k b` or `a` for so long.
+        UntilOperator::Weak => Ltl::Or(vec![
+            until(UntilOperator::Until, bounds, left.clone(), right),
+            temporal(TemporalOperator::Globally, bounds, left),
+        ]),
+        UntilOperator::Until => {
+            let inside = match last {
+                None => Ltl::Until(Box::new(left.clone()), Box::new(right)),
+                Some(last) => (first..last).fold(right.clone(), |formula, _| {
+                    let later = Ltl::And(vec![left.clone(), Ltl::Next(Box::new(formula))]);
+                    Ltl::Or(vec![right.clone(), later])
+                }),
+            };
+            (0..first).fold(inside, |formula, _| Ltl::And(vec![left.clone(), Ltl::Next(Box::new(formula))]))
+        }
+    }
+}
+
+/// Whether a formula speaks of more than the present state.
+fn is_path(node: &Node) -> bool {
+    match &node.kind {
+        NodeKind::Temporal(..) | NodeKind::Until(..) => true,
+        NodeKind::Operator(_) | NodeKind::Filter(_) => false,
+        kind => kind.children().into_iter().any(is_path),
+    }
+}

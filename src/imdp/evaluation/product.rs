@@ -1,0 +1,189 @@
+//! Path formulas of all kinds: a model and a deterministic automaton, step by step together.
+
+use super::expression::Evaluator;
+use super::{EvaluationError, Truth};
+use crate::automaton::{Automaton, Condition, Ltl};
+use crate::model::{
+    ActionNames, ChoicesBuilder, IntervalMdp, Labels, Parts, RowId, RowRange, Rows, StateId, StateSet,
+    StateVariables, require_memory,
+};
+use crate::property::Resolution;
+use crate::solver::{Acceptance, Event, ValueBounds, accepting_states, solve};
+use std::collections::HashMap;
+
+/// What a state of the product takes in memory.
+const BYTES: u64 = 160;
+
+/// How many states are made between two looks at the memory.
+const STRIDE: usize = 1 << 18;
+
+impl Evaluator<'_> {
+    /// Bounds on the probability of a formula over propositions.
+    pub(super) fn omega(
+        &mut self,
+        formula: &Ltl,
+        propositions: &[Truth],
+        resolution: Resolution,
+    ) -> Result<ValueBounds, EvaluationError> {
+        if !resolution.policy_maximises() {
+            // A policy that minimises one formula maximises its negation.
+            let negation = Ltl::Not(Box::new(formula.clone()));
+            return Ok(self.omega(&negation, propositions, resolution.flipped())?.complement());
+        }
+        let mut letters = vec![0u64; self.model.num_states()];
+        for (index, proposition) in propositions.iter().enumerate() {
+            for state in proposition.decided()?.ones() {
+                letters[state] |= 1 << (index % 64);
+            }
+        }
+        let product = Product::new(self.model, &mut Automaton::new(formula)?, &letters)?;
+        let all = {
+            let mut all = StateSet::with_capacity(product.model.num_states());
+            all.insert_range(..);
+            all
+        };
+        let upper_goal = product.goal(true);
+        let lower_goal = if resolution.nature_maximises() { upper_goal.clone() } else { product.goal(false) };
+        let options = crate::solver::SolverOptions { policy: false, evidence: false, ..self.options };
+        let until = |goal| {
+            solve(&product.model, &Event::Until { safe: &all, goal, steps: None }, resolution, &options)
+        };
+        let lower = until(&lower_goal)?;
+        let of_starts = |values: &[f64]| product.starts.iter().map(|&state| values[state as usize]).collect();
+        if lower_goal == upper_goal {
+            let values = self.note(lower);
+            return Ok(ValueBounds { lower: of_starts(&values.lower), upper: of_starts(&values.upper) });
+        }
+        let upper = until(&upper_goal)?;
+        let (lower, upper) = (self.note(lower), self.note(upper));
+        Ok(ValueBounds { lower: of_starts(&lower.lower), upper: of_starts(&upper.upper) })
+    }
+}
+
+struct Product {
+    model: IntervalMdp,
+    /// For every state of the original, where a run that starts in it begins.
+    starts: Vec<StateId>,
+    /// States from which the formula is satisfied whatever comes.
+    satisfied: StateSet,
+    conditions: Vec<Acceptance>,
+}
+
+/// Puts states of the model and of the automaton together, as they are met.
+struct Pairs<'a> {
+    automaton: &'a mut Automaton,
+    letters: &'a [u64],
+    ids: HashMap<(StateId, u32), StateId>,
+    pairs: Vec<(StateId, u32)>,
+}
+
+impl Pairs<'_> {
+    /// The pair that is met when the model moves to `state` while the automaton is in `memory`.
+    fn enter(&mut self, state: StateId, memory: u32) -> Result<StateId, EvaluationError> {
+        let memory = self.automaton.step(memory, self.letters[state as usize])?;
+        let next = self.pairs.len() as StateId;
+        let id = *self.ids.entry((state, memory)).or_insert(next);
+        if id == next {
+            self.pairs.push((state, memory));
+            if self.pairs.len().is_multiple_of(STRIDE) {
+                require_memory("the product of model and automaton", BYTES * STRIDE as u64)?;
+            }
+        }
+        Ok(id)
+    }
+}
+
+impl Product {
+    fn new(model: &IntervalMdp, automaton: &mut Automaton, letters: &[u64]) -> Result<Self, EvaluationError> {
+        let mut pairs = Pairs { automaton, letters, ids: HashMap::new(), pairs: vec![] };
+        let starts = (0..model.num_states() as StateId)
+            .map(|state| pairs.enter(state, 0))
+            .collect::<Result<Vec<_>, _>>()?;
+        let mut rows = Rows::new();
+        let mut known: HashMap<(Option<RowId>, StateId, u32), RowId> = HashMap::new();
+        let mut choices = ChoicesBuilder::with_capacity(starts.len());
+        let mut satisfied = vec![];
+        let mut next = 0;
+        while let Some(&(state, memory)) = pairs.pairs.get(next) {
+            next += 1;
+            if let Some(outcome) = pairs.automaton.decided(memory) {
+                satisfied.push(outcome);
+                choices.push_absorbing();
+                continue;
+            }
+            satisfied.push(false);
+            // A state that stays where it is goes on reading its letter.
+            let own: Vec<Option<RowId>> = match model.choices().ranges(state).is_empty() {
+                true => vec![None],
+                false => model.choices().rows(state).map(Some).collect(),
+            };
+            for row in own {
+                let key = (row, if row.is_none() { state } else { 0 }, memory);
+                let id = match known.get(&key) {
+                    Some(&id) => id,
+                    None => {
+                        let mut entries = vec![];
+                        match row.map(|row| model.rows().row(row)) {
+                            None => entries.push((pairs.enter(state, memory)?, 1.0, 1.0)),
+                            Some(row) => {
+                                for ((&s, &l), &u) in row.successors.iter().zip(row.lower).zip(row.upper) {
+                                    entries.push((pairs.enter(s, memory)?, l, u));
+                                }
+                            }
+                        }
+                        entries.sort_unstable_by_key(|entry| entry.0);
+                        entries.into_iter().for_each(|(s, l, u)| rows.push_entry(s, l, u));
+                        let id = rows.finish_row();
+                        known.insert(key, id);
+                        id
+                    }
+                };
+                choices.push_range(RowRange { first: id, last: id });
+            }
+            choices.finish_state();
+        }
+        let states = pairs.pairs.len();
+        let mut initial = StateSet::with_capacity(states);
+        starts.iter().for_each(|&state| initial.insert(state as usize));
+        let conditions = pairs.automaton.conditions().to_vec();
+        let met = |check: usize| {
+            let mut set = StateSet::with_capacity(states);
+            let decides =
+                |(_, (_, memory)): &(usize, &(StateId, u32))| pairs.automaton.decides(*memory, check);
+            pairs.pairs.iter().enumerate().filter(decides).for_each(|(state, _)| set.insert(state));
+            set
+        };
+        let acceptance = |Condition { finitely, infinitely }: Condition| {
+            let mut none = StateSet::with_capacity(states);
+            finitely.into_iter().for_each(|check| none.union_with(&met(check)));
+            // Where it is decided, nothing is left to be checked.
+            pairs.pairs.iter().enumerate().for_each(|(state, &(_, memory))| {
+                if pairs.automaton.decided(memory).is_some() {
+                    none.insert(state);
+                }
+            });
+            Acceptance { finitely: none, infinitely: infinitely.into_iter().map(met).collect() }
+        };
+        let conditions = conditions.into_iter().map(acceptance).collect();
+        let mut set = StateSet::with_capacity(states);
+        satisfied.into_iter().enumerate().for_each(|(state, outcome)| set.set(state, outcome));
+        let parts = Parts {
+            kind: model.kind(),
+            rows,
+            choices: choices.finish(),
+            actions: ActionNames::None,
+            initial,
+            labels: Labels::default(),
+            variables: StateVariables::default(),
+        };
+        let model = IntervalMdp::new(parts).map_err(|error| EvaluationError::Product(error.to_string()))?;
+        Ok(Self { model, starts, satisfied: set, conditions })
+    }
+
+    /// Where the formula is satisfied almost surely by a policy that stays; `helpful` says whether nature helps.
+    fn goal(&self, helpful: bool) -> StateSet {
+        let mut goal = accepting_states(&self.model, &self.conditions, helpful);
+        goal.union_with(&self.satisfied);
+        goal
+    }
+}

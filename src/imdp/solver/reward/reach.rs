@@ -1,0 +1,232 @@
+//! Expected rewards until a goal.
+
+use super::super::expectation::Bound;
+use super::super::graph::{stays, zero_one};
+use super::super::options::Control;
+use super::super::policy::NO_CHOICE;
+use super::super::query::{Direction, Players};
+use super::super::{Policy, Solution, SolverOptions, Status, ValueBounds};
+use super::operator::Operator;
+use crate::model::{IntervalMdp, RewardStructure, RowId, StateId, StateSet};
+
+/// Sweeps in which a lower bound that was derived from the upper one is lowered until it holds.
+const REPAIRS: usize = 256;
+
+/// The value in every state.
+pub(super) fn reach(
+    model: &IntervalMdp,
+    rewards: &RewardStructure,
+    goal: &StateSet,
+    players: Players,
+    options: &SolverOptions<'_>,
+) -> Solution {
+    let states = model.num_states();
+    let has_rows = |s: &usize| !model.choices().ranges(*s as StateId).is_empty();
+    let mut moving = StateSet::with_capacity(states);
+    (0..states).filter(|&s| !goal.contains(s)).filter(has_rows).for_each(|s| moving.insert(s));
+    // Who wants little reward wants the goal to be met.
+    let willing = Players { policy: players.policy.flipped(), nature: players.nature.flipped() };
+    let finite = zero_one(model, goal, &moving, willing).certain;
+    let inside = |s: StateId| finite.contains(s as usize);
+    let usable: Vec<bool> = (0..model.rows().len() as RowId)
+        .map(|row| players.policy == Direction::Max || stays(model.rows().row(row), willing.nature, inside))
+        .collect();
+    let usable = |row: RowId| usable[row as usize];
+    let open: Vec<StateId> = finite.ones().filter(|&s| moving.contains(s)).map(|s| s as StateId).collect();
+    let operator = |rewards| Operator::new(model, rewards, players, open.clone(), (&usable, &inside));
+    let mut iteration = Iteration {
+        steps: operator(None),
+        operator: operator(Some(rewards)),
+        lower: vec![0.0; states],
+        upper: vec![0.0; states],
+        choices: vec![NO_CHOICE; states],
+        maximises: players.policy == Direction::Max,
+        control: Control::new(options),
+    };
+    let status = iteration.run(options.epsilon);
+    let Iteration { mut lower, mut upper, choices, control, .. } = iteration;
+    for state in (0..states).filter(|&s| !finite.contains(s)) {
+        (lower[state], upper[state]) = (f64::INFINITY, f64::INFINITY);
+    }
+    Solution {
+        values: ValueBounds { lower, upper },
+        status,
+        iterations: control.iterations,
+        policy: options.policy.then(|| Policy::stationary(&choices)),
+        evidence: None,
+        history: vec![],
+    }
+}
+
+struct Iteration<'a> {
+    /// The operator that counts steps.
+    steps: Operator,
+    operator: Operator,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+    choices: Vec<u32>,
+    maximises: bool,
+    control: Control<'a>,
+}
+
+impl Iteration<'_> {
+    fn run(&mut self, epsilon: f64) -> Status {
+        let states = self.operator.states.clone();
+        if states.is_empty() {
+            return Status::Converged;
+        }
+        let steps = match self.expected_steps() {
+            Ok(steps) => steps,
+            Err(reason) => {
+                states.iter().for_each(|&s| self.upper[s as usize] = f64::INFINITY);
+                return reason;
+            }
+        };
+        let longest = states.iter().map(|&s| steps[s as usize]).fold(1.0, f64::max);
+        let largest = self.operator.largest_cost();
+        for &s in &states {
+            self.upper[s as usize] = (largest * steps[s as usize]).next_up();
+        }
+        let mut next_jump = 4;
+        for sweep in 1u64.. {
+            if let Some(reason) = self.control.stop() {
+                return reason;
+            }
+            let changed = self.sweep();
+            let gap = self.gap();
+            self.control.done(gap);
+            if gap <= epsilon {
+                return Status::Converged;
+            }
+            if sweep >= next_jump || !changed {
+                next_jump = sweep + 1 + sweep / 4;
+                let jumped = self.jump(&steps, epsilon / (4.0 * longest));
+                if self.gap() <= epsilon {
+                    return Status::Converged;
+                }
+                if !changed && !jumped {
+                    return Status::PrecisionLimit;
+                }
+            }
+        }
+        Status::PrecisionLimit
+    }
+
+    /// `w ≥ 1 + opt p·w`: at least the number of steps that the players take who want few or many, as with rewards.
+    ///
+    /// While `w` grows by at most 0.45 in a sweep, `2w` is such: `1 + 2 p·w ≤ 2(w + 0.45) − 1 ≤ 2w`.
+    fn expected_steps(&mut self) -> Result<Vec<f64>, Status> {
+        let mut steps = vec![0.0; self.lower.len()];
+        loop {
+            if let Some(reason) = self.control.stop() {
+                return Err(reason);
+            }
+            let (results, chosen) = self.steps.apply(&steps, 1.0, Bound::Upper);
+            let mut growth: f64 = 0.0;
+            for ((&s, value), choice) in self.steps.states.iter().zip(results).zip(chosen) {
+                growth = growth.max(value - steps[s as usize]);
+                steps[s as usize] = steps[s as usize].max(value);
+                // Choices that are made for few steps lead to the goal.
+                self.choices[s as usize] = choice;
+            }
+            self.control.done(f64::INFINITY);
+            if growth <= 0.45 {
+                steps.iter_mut().for_each(|value| *value *= 2.0);
+                return Ok(steps);
+            }
+        }
+    }
+
+    /// One step from below and one from above; returns whether anything changed.
+    fn sweep(&mut self) -> bool {
+        let mut changed = false;
+        let (results, chosen) = self.operator.apply(&self.lower, 1.0, Bound::Lower);
+        for (i, &s) in self.operator.states.iter().enumerate() {
+            let value = &mut self.lower[s as usize];
+            if results[i] > *value {
+                changed = true;
+                *value = results[i];
+                if self.maximises {
+                    self.choices[s as usize] = chosen[i];
+                }
+            }
+        }
+        let (results, chosen) = self.operator.apply(&self.upper, 1.0, Bound::Upper);
+        for (i, &s) in self.operator.states.iter().enumerate() {
+            let value = &mut self.upper[s as usize];
+            if results[i] < *value {
+                changed = true;
+                *value = results[i].max(self.lower[s as usize]);
+                if !self.maximises {
+                    self.choices[s as usize] = chosen[i];
+                }
+            }
+        }
+        changed
+    }
+
+    /// How far apart the bounds are, relative to what is above 1.
+    fn gap(&self) -> f64 {
+        let gap = |&s: &StateId| {
+            let (lower, upper) = (self.lower[s as usize], self.upper[s as usize]);
+            (upper - lower) / lower.max(1.0)
+        };
+        self.operator.states.iter().map(gap).fold(0.0, f64::max)
+    }
+
+    /// Tries bounds that are close to those on the other side; returns whether one of them holds.
+    fn jump(&mut self, steps: &[f64], margin: f64) -> bool {
+        let states = self.operator.states.clone();
+        let scale = states.iter().map(|&s| self.lower[s as usize]).fold(1.0, f64::max);
+        let margin = margin * scale;
+        let mut candidate = self.upper.clone();
+        for &s in &states {
+            let s = s as usize;
+            candidate[s] = (self.lower[s] + margin * steps[s]).next_up();
+        }
+        let (results, chosen) = self.operator.apply(&candidate, 1.0, Bound::Upper);
+        let mut jumped = false;
+        if states.iter().zip(&results).all(|(&s, value)| *value < candidate[s as usize]) {
+            for (i, &s) in states.iter().enumerate() {
+                if results[i] < self.upper[s as usize] {
+                    jumped = true;
+                    self.upper[s as usize] = results[i].max(self.lower[s as usize]);
+                    if !self.maximises {
+                        self.choices[s as usize] = chosen[i];
+                    }
+                }
+            }
+        }
+        let mut candidate = self.lower.clone();
+        for &s in &states {
+            let s = s as usize;
+            candidate[s] = (self.upper[s] - margin * steps[s]).max(self.lower[s]);
+        }
+        for _ in 0..REPAIRS {
+            let (results, chosen) = self.operator.apply(&candidate, 1.0, Bound::Lower);
+            let mut holds = true;
+            for (&s, &value) in states.iter().zip(&results) {
+                let s = s as usize;
+                if value < candidate[s] {
+                    holds = false;
+                    candidate[s] = value;
+                }
+            }
+            if !holds {
+                continue;
+            }
+            for (i, &s) in states.iter().enumerate() {
+                let value = candidate[s as usize];
+                if value > self.lower[s as usize] {
+                    jumped = true;
+                    self.lower[s as usize] = value.min(self.upper[s as usize]);
+                    if self.maximises {
+                        self.choices[s as usize] = chosen[i];
+                    }
+                }
+            }
+            break;
+        }
+        jumped
+    }
+}
