@@ -59,7 +59,7 @@ CASES = [
     *(({"student_t": {"scale": "0.4", "degrees": nu}}, "0.3") for nu in (1, 2, 3, 4, 5, 10, 37, 200)),
     ({"uniform": {"lower": "-0.7", "upper": "0.4"}}, "0.3"), ({"triangular": {"lower": "-1", "mode": "0.25", "upper": "2"}}, "0.2"),
     ({"triangular": {"lower": "0", "mode": "0", "upper": "1"}}, "0.1"),
-    ({"atoms": {"values": ["-0.2", "0", "0.1", "0.3"], "weights": ["1", "2", "3", "1"]}}, "0.1"),
+    ({"atoms": {"values": ["-0.2", "0", "0.1", "0.3"], "weights": ["1", "2", "3", "1"]}}, "0.125"),
     ({"table": {"x": ["-1", "-0.5", "0", "2"], "cdf": ["0", "0.25", "0.75", "1"]}}, "0.2"),
     ({"mixture": {"of": [GAUSSIAN, {"uniform": {"lower": "1", "upper": "2"}}], "weights": ["2", "1"]}}, "0.15"),
     ({"truncated": {"of": GAUSSIAN, "lower": "-0.5", "upper": "0.25"}}, "0.125"),

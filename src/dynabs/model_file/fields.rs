@@ -1,5 +1,6 @@
 //! The fields of a model file.
 
+use super::dynamics::DynamicsSpec;
 use crate::problem::{DistributionParts, GroupSteps, Horizon};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
@@ -36,6 +37,9 @@ pub(super) struct ModelFile {
     /// A lower layer of linear feedback that stabilises the system.
     #[serde(default)]
     pub(super) stabilizer: Option<StabilizerSpec>,
+    /// For actions "inputs": in the cell with center c the input is u = ū − K (x − c).
+    #[serde(default)]
+    pub(super) feedback: Option<FeedbackSpec>,
     /// The grid of cells; everything outside counts as failed.
     pub(super) partition: GridSpec,
     /// The points that actions steer to: "centers" (of all cells, the default), a grid whose cell centers
@@ -50,25 +54,6 @@ pub(super) struct ModelFile {
     /// How probability intervals are computed from the samples.
     #[serde(default)]
     pub(super) probabilities: ProbabilitiesSpec,
-}
-
-/// The dynamics `x⁺ = A x + B u + q + η` of one step.
-#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct DynamicsSpec {
-    /// `A`, n×n, row by row; not singular.
-    #[serde(rename = "A")]
-    pub(super) a: Vec<Vec<f64>>,
-    /// `B`, n×p, row by row; absent if there is nothing to choose.
-    #[serde(rename = "B", default)]
-    pub(super) b: Option<Vec<Vec<f64>>>,
-    /// `q`, n numbers; 0 if absent.
-    #[serde(default)]
-    pub(super) q: Option<Vec<f64>>,
-    /// How many steps d become one: an integer, or "auto" (the default) for the smallest number that makes
-    /// the grouped `B` of full row rank.
-    #[serde(default)]
-    pub(super) group_steps: GroupSteps,
 }
 
 /// What the controller chooses from.
@@ -174,6 +159,22 @@ pub(super) struct StabilizerSpec {
     pub(super) about: Option<Vec<f64>>,
     /// `U′`, what is left to the abstraction: a box or polytope of d·p inputs that contains 0.
     pub(super) abstract_input: SetSpec,
+}
+
+/// Local feedback: exactly one of `gain`, `lqr` and `narrow`.
+#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FeedbackSpec {
+    /// The gain `K` itself, p×n.
+    #[serde(default)]
+    pub(super) gain: Option<Vec<Vec<f64>>>,
+    /// Weights from which the gain is computed, for the dynamics linearised at the center of the partition.
+    #[serde(default)]
+    pub(super) lqr: Option<LqrSpec>,
+    /// A gain is chosen that makes images small and uses at most this share of the width of `U`.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub(super) narrow: Option<f64>,
 }
 
 /// The weights of a linear-quadratic regulator for the grouped system.

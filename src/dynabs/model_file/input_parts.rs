@@ -1,10 +1,9 @@
 //! From the fields of a model file to the parts of a problem whose actions are inputs.
 
-use super::fields::{DynamicsSpec, ModelFile, NoiseSpec, SetSpec, TargetsSpec};
-use super::parts::{input_set, partition, task};
+use super::fields::{FeedbackSpec, LqrSpec, ModelFile, NoiseSpec, SetSpec, TargetsSpec};
+use super::parts::{given, input_set, partition, task};
 use crate::Diagnostic;
-use crate::problem::{InputChoice, InputParts, InputSet, LinearDynamics};
-use crate::system::Mode;
+use crate::problem::{FeedbackChoice, InputChoice, InputParts, InputSet, LqrWeights};
 
 /// The parts, not yet checked against each other.
 pub(super) fn input_parts(file: ModelFile) -> Result<InputParts, Diagnostic> {
@@ -18,7 +17,7 @@ pub(super) fn input_parts(file: ModelFile) -> Result<InputParts, Diagnostic> {
     if !matches!(file.targets, TargetsSpec::Centers) {
         return Err(foreign("targets"));
     }
-    let mode = mode(file.dynamics)?;
+    let mode = file.dynamics.mode(&file.partition, file.input.as_ref())?;
     let (n, p) = (mode.num_states(), mode.num_inputs());
     let (set, inputs) = input_choice(file.input, p)?;
     let periodic = file.partition.periodic.clone().unwrap_or(vec![false; n]);
@@ -42,7 +41,7 @@ pub(super) fn input_parts(file: ModelFile) -> Result<InputParts, Diagnostic> {
         periodic,
         set,
         inputs,
-        gain: None,
+        feedback: feedback(file.feedback)?,
         resolution: file.partition.resolution.clone(),
         partition: partition(file.partition),
         noise,
@@ -51,12 +50,23 @@ pub(super) fn input_parts(file: ModelFile) -> Result<InputParts, Diagnostic> {
     })
 }
 
-/// The dynamics of one step, whatever they are.
-fn mode(spec: DynamicsSpec) -> Result<Mode, Diagnostic> {
-    let linear = LinearDynamics { a: spec.a, b: spec.b.unwrap_or_default(), q: spec.q };
-    let system = linear.any_system()?;
-    let names = (1..=system.state_dimension()).map(|j| format!("x{j}")).collect();
-    Ok(Mode::linear(&system, names))
+fn feedback(spec: Option<FeedbackSpec>) -> Result<FeedbackChoice, Diagnostic> {
+    match spec {
+        None => Ok(FeedbackChoice::None),
+        Some(FeedbackSpec { gain: Some(gain), lqr: None, narrow: None }) => Ok(FeedbackChoice::Gain(gain)),
+        Some(FeedbackSpec { gain: None, lqr: Some(LqrSpec { q, r, decimals }), narrow: None }) => {
+            Ok(FeedbackChoice::Lqr(LqrWeights { q, r, decimals }))
+        }
+        Some(FeedbackSpec { gain: None, lqr: None, narrow: Some(share) }) => {
+            Ok(FeedbackChoice::Narrow(share))
+        }
+        Some(FeedbackSpec { gain, lqr, narrow }) => {
+            let fields = [("gain", gain.is_some()), ("lqr", lqr.is_some()), ("narrow", narrow.is_some())];
+            let given = given(&fields);
+            let found = if given.is_empty() { "none of them".to_owned() } else { given };
+            Err(Diagnostic::at("/feedback", found, "exactly one of gain, lqr and narrow"))
+        }
+    }
 }
 
 fn input_choice(spec: Option<SetSpec>, p: usize) -> Result<(Option<InputSet>, InputChoice), Diagnostic> {

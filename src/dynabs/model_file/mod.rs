@@ -1,8 +1,10 @@
 //! The model file: a [`Problem`](crate::problem::Problem) as JSON, every error with the place it is about.
 
 mod document;
+mod dynamics;
 mod fields;
 mod input_parts;
+mod named;
 mod parts;
 mod schema;
 

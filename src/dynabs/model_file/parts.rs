@@ -1,10 +1,11 @@
 //! From the fields of a model file to the parts of a problem.
 
 use super::Document;
+use super::dynamics::DynamicsSpec;
 use super::fields::{
-    ActionsSpec, DynamicsSpec, GaussianSpec, GridSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec,
-    RegionSpec, SafetyCheck, SampleKindSpec, SamplesSpec, SetSpec, StabilizerSpec, TargetsSpec, TaskKind,
-    TaskSpec, UnsafeSpec,
+    ActionsSpec, GaussianSpec, GridSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec, RegionSpec,
+    SafetyCheck, SampleKindSpec, SamplesSpec, SetSpec, StabilizerSpec, TargetsSpec, TaskKind, TaskSpec,
+    UnsafeSpec,
 };
 use super::input_parts::input_parts;
 use crate::Diagnostic;
@@ -60,12 +61,22 @@ impl Document {
 
 /// The kind of actions: as stated, or what the other fields ask for.
 fn actions(file: &ModelFile) -> ActionsSpec {
-    let default = if file.noise.components.is_some() { ActionsSpec::Inputs } else { ActionsSpec::Targets };
+    let steered = file.noise.components.is_none() && file.dynamics.beyond_matrices().is_none();
+    let default = if steered { ActionsSpec::Targets } else { ActionsSpec::Inputs };
     file.actions.unwrap_or(default)
 }
 
 fn builder(file: ModelFile, directory: &Path) -> Result<ProblemBuilder, Diagnostic> {
-    let DynamicsSpec { a, b, q, group_steps } = file.dynamics;
+    if let Some(field) = file.dynamics.beyond_matrices() {
+        let place = format!("/dynamics/{field}");
+        return Err(Diagnostic::at(place, "a field for actions \"inputs\"", "A, B and q").remedy(INPUTS));
+    }
+    if file.feedback.is_some() {
+        let found = "a field for actions \"inputs\"";
+        return Err(Diagnostic::at("/feedback", found, "only fields for actions \"targets\"").remedy(INPUTS));
+    }
+    let DynamicsSpec { a, b, q, group_steps, .. } = file.dynamics;
+    let a = a.ok_or_else(|| missing("A").remedy(INPUTS))?;
     let b = b.ok_or_else(|| missing("B").remedy(INPUTS))?;
     let input = file.input.ok_or_else(|| missing("input").remedy(INPUTS))?;
     if input.points.is_some() || input.list.is_some() {
@@ -123,7 +134,7 @@ pub(super) fn input_set(place: &str, spec: SetSpec) -> Result<InputSet, Diagnost
 }
 
 /// The names of the fields that are there.
-fn given(fields: &[(&str, bool)]) -> String {
+pub(super) fn given(fields: &[(&str, bool)]) -> String {
     let given: Vec<_> = fields.iter().filter(|(_, given)| *given).map(|(name, _)| *name).collect();
     given.join(", ")
 }

@@ -1,14 +1,13 @@
 //! A control problem whose actions are inputs.
 
-use super::InputSet;
 use super::builder::{InitialState, given, initial};
 use super::distribution::DistributionParts;
 use super::problem::Objective;
 use super::regions::Partition;
 use super::task::{CheckedTask, Task};
 use super::values::{count, vector};
+use super::{FeedbackChoice, InputSet};
 use crate::geometry::Polytope;
-use crate::linear_algebra::ExactMatrix;
 use crate::noise::known::Distribution;
 use crate::partition::{CellId, CellLabels, Grid, Region};
 use crate::system::{Feedback, Mode};
@@ -30,8 +29,8 @@ pub struct InputParts {
     pub set: Option<InputSet>,
     /// The inputs to choose from.
     pub inputs: InputChoice,
-    /// `K`, `p×n`: in the cell with center `c` the input is `ū − K (x − c)`; no feedback if absent.
-    pub gain: Option<ExactMatrix>,
+    /// The feedback about the centers of cells.
+    pub feedback: FeedbackChoice,
     /// The grid of cells; everything outside counts as failed.
     pub partition: Partition,
     /// How many sub-cells a cell has in each coordinate; chosen if absent.
@@ -90,11 +89,8 @@ impl InputProblem {
         let (n, p) = (parts.mode.num_states(), parts.mode.num_inputs());
         let grid = parts.partition.grid("/partition", n)?;
         let set = parts.set.as_ref().map(|set| set.polytope("/input", p)).transpose()?;
-        let feedback = match parts.gain {
-            Some(gain) => Feedback::new(gain, &grid),
-            None => Feedback::none(p, &grid),
-        };
-        let all = candidates(&parts.inputs, parts.set.as_ref(), p)?;
+        let feedback = parts.feedback.feedback(&parts.mode, &grid, parts.set.as_ref())?;
+        let all = candidates(&parts.inputs, parts.set.as_ref(), &feedback)?;
         let (given_inputs, inputs) = (all.len(), allowed(all, set.as_ref(), &feedback, &grid));
         if inputs.is_empty() {
             let found =
@@ -243,12 +239,13 @@ fn checked_resolution(resolution: Vec<u32>, n: usize) -> Result<Vec<u32>, Diagno
     }
 }
 
-/// The inputs that are listed or spanned.
+/// The inputs that are listed, or spanned over what the feedback leaves of a box.
 fn candidates(
     choice: &InputChoice,
     set: Option<&InputSet>,
-    p: usize,
+    feedback: &Feedback,
 ) -> Result<Vec<Vec<Rational>>, Diagnostic> {
+    let p = feedback.gain().rows();
     match (choice, set) {
         (InputChoice::List(list), _) => {
             let place = |i| format!("/input/list/{i}");
@@ -269,6 +266,12 @@ fn candidates(
                 vector("/input/lower", lower, p, "one per input")?,
                 vector("/input/upper", upper, p, "one per input")?,
             );
+            let margins = feedback.margins();
+            let shifted = |ends: &[Rational], sign: i64| -> Vec<Rational> {
+                let sign = Rational::from_integer(sign.into());
+                ends.iter().zip(margins).map(|(end, margin)| end + margin * &sign).collect()
+            };
+            let (lower, upper) = (shifted(&lower, 1), shifted(&upper, -1));
             let all: u64 = points.iter().fold(1, |all: u64, &k| all.saturating_mul(k.into()));
             if all == 0 || all > MOST_INPUTS {
                 let expected =

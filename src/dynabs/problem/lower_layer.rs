@@ -8,6 +8,7 @@ use crate::geometry::Polytope;
 use crate::linear_algebra::{Definiteness, ExactMatrix};
 use crate::partition::Grid;
 use crate::system::{LinearSystem, Lqr, TwoLayer, decimal_gain, lower_layer_violation};
+use nalgebra::DMatrix;
 
 /// A lower layer `u = −K (x − x̄) + u′` on the grouped system (`d·p` inputs).
 #[derive(Clone, Debug, PartialEq)]
@@ -67,7 +68,8 @@ pub(super) fn stabilizer(
     }
     let (gain, riccati_residual) = match &layer.gain {
         Gain::Lqr(weights) => {
-            let (gain, residual) = lqr_gain(weights, system)?;
+            let (a, b) = (system.a().to_f64(), system.b().to_f64());
+            let (gain, residual) = lqr_gain("/stabilizer/lqr", weights, &a, &b)?;
             (gain, Some(residual))
         }
         Gain::Given(gain) => {
@@ -95,9 +97,16 @@ pub(super) fn stabilizer(
     Ok(Stabilizer { layers, riccati_residual, warnings })
 }
 
-fn lqr_gain(weights: &LqrWeights, system: &LinearSystem) -> Result<(ExactMatrix, f64), Diagnostic> {
-    let (n, p) = (system.state_dimension(), system.input_dimension());
-    let definite = |place: &str, values: &[Vec<f64>], size, what| {
+/// The gain for `A` (`n×n`) and `B` (`n×p`) with the weights at `place`, and its residual.
+pub(super) fn lqr_gain(
+    place: &str,
+    weights: &LqrWeights,
+    a: &DMatrix<f64>,
+    b: &DMatrix<f64>,
+) -> Result<(ExactMatrix, f64), Diagnostic> {
+    let (n, p) = (a.nrows(), b.ncols());
+    let definite = |field: &str, values: &[Vec<f64>], size, what| {
+        let place = &format!("{place}/{field}");
         let weight = symmetric(place, values, size, what)?;
         match weight.definiteness() {
             Definiteness::PositiveDefinite => Ok(weight.to_f64()),
@@ -111,16 +120,15 @@ fn lqr_gain(weights: &LqrWeights, system: &LinearSystem) -> Result<(ExactMatrix,
             }
         }
     };
-    let q = definite("/stabilizer/lqr/Q", &weights.q, n, "n×n for n states")?;
-    let r = definite("/stabilizer/lqr/R", &weights.r, p, "(d·p)×(d·p) for d grouped steps and p inputs")?;
+    let q = definite("Q", &weights.q, n, "n×n for n states")?;
+    let r = definite("R", &weights.r, p, "(d·p)×(d·p) for d grouped steps and p inputs")?;
     let failed = |found: String| {
-        Diagnostic::at("/stabilizer/lqr", found, "weights for which the Riccati equation can be solved")
+        Diagnostic::at(place, found, "weights for which the Riccati equation can be solved")
             .remedy("Bring the entries of Q and R closer together in size.")
     };
-    let lqr = Lqr::solve(&system.a().to_f64(), &system.b().to_f64(), &q, &r)
-        .map_err(|error| failed(error.to_string()))?;
+    let lqr = Lqr::solve(a, b, &q, &r).map_err(|error| failed(error.to_string()))?;
     if let Some(decimals) = weights.decimals.filter(|&decimals| decimals > 300) {
-        return Err(Diagnostic::at("/stabilizer/lqr/decimals", decimals.to_string(), "at most 300"));
+        return Err(Diagnostic::at(format!("{place}/decimals"), decimals.to_string(), "at most 300"));
     }
     let gain = decimal_gain(&lqr.gain, weights.decimals)
         .ok_or_else(|| failed("a gain that is not finite".into()))?;

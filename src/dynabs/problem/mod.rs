@@ -28,6 +28,8 @@
 mod builder;
 mod distribution;
 mod dynamics;
+mod expression_dynamics;
+mod feedback_choice;
 mod input_problem;
 mod input_set;
 mod lower_layer;
@@ -42,6 +44,8 @@ mod values;
 pub use builder::ProblemBuilder;
 pub use distribution::DistributionParts;
 pub use dynamics::{Dynamics, GroupSteps, LinearDynamics};
+pub use expression_dynamics::{Constant, Equations, ExpressionDynamics};
+pub use feedback_choice::FeedbackChoice;
 pub use input_problem::{InputChoice, InputParts, InputProblem};
 pub use input_set::InputSet;
 pub use lower_layer::{Gain, LowerLayer, LqrWeights, Stabilizer};

@@ -5,6 +5,7 @@
 
 pub mod expression;
 mod feedback;
+mod gain;
 mod grouping;
 mod image;
 mod interval;
@@ -13,15 +14,18 @@ mod linear_system;
 mod mode;
 mod partial_image;
 mod riccati;
+mod sampling;
 mod two_layer;
 
 pub use feedback::Feedback;
+pub use gain::narrowing_gain;
 pub use grouping::{TooManyDigits, group, require_digits, smallest_group};
 pub use image::{ImageError, ImageScratch, Images, Lattice, LatticeRange};
 pub use interval::Interval;
 pub use law::{Extent, FeedbackLaw, SteeringConstraint, decimal_gain, lower_layer_violation};
 pub use linear_system::LinearSystem;
-pub use mode::Mode;
+pub use mode::{Mode, Variable};
 pub use partial_image::PartialImage;
 pub use riccati::{Lqr, RiccatiError, spectral_radius};
+pub use sampling::{SampledLinear, SamplingError, TaylorError, TaylorStep, accumulated_covariance};
 pub use two_layer::TwoLayer;

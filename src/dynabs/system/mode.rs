@@ -13,10 +13,26 @@ use num_traits::Zero;
 pub struct Mode {
     graph: Graph,
     next: Vec<NodeId>,
-    state_names: Vec<String>,
-    inputs: usize,
+    states: Vec<Variable>,
+    inputs: Vec<Variable>,
     parameters: Vec<Interval>,
     step: Tape,
+}
+
+/// A coordinate of the state or of the input.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Variable {
+    /// Its name.
+    pub name: String,
+    /// The unit that it is measured in.
+    pub unit: Option<String>,
+}
+
+impl Variable {
+    /// The variables `x1, x2, …` without units, for the letter `x`.
+    pub fn numbered(letter: &str, count: usize) -> Vec<Self> {
+        (1..=count).map(|k| Self { name: format!("{letter}{k}"), unit: None }).collect()
+    }
 }
 
 impl Mode {
@@ -24,16 +40,16 @@ impl Mode {
     pub fn new(
         graph: Graph,
         next: Vec<NodeId>,
-        state_names: Vec<String>,
-        inputs: usize,
+        states: Vec<Variable>,
+        inputs: Vec<Variable>,
         parameters: Vec<Interval>,
     ) -> Self {
         let step = Tape::new(&graph, &next);
-        Self { graph, next, state_names, inputs, parameters, step }
+        Self { graph, next, states, inputs, parameters, step }
     }
 
     /// The mode `x⁺ = A x + B u + q`.
-    pub fn linear(system: &LinearSystem, state_names: Vec<String>) -> Self {
+    pub fn linear(system: &LinearSystem, states: Vec<Variable>, inputs: Vec<Variable>) -> Self {
         let (n, p) = (system.state_dimension(), system.input_dimension());
         let mut graph = Graph::default();
         let mut next = Vec::with_capacity(n);
@@ -47,7 +63,18 @@ impl Mode {
             }
             next.push(sum);
         }
-        Self::new(graph, next, state_names, p, Vec::new())
+        Self::new(graph, next, states, inputs, Vec::new())
+    }
+
+    /// This mode `times` times with one input (and one value of each parameter), noise added after the last.
+    pub fn held(&self, times: u32) -> Self {
+        let mut graph = self.graph.clone();
+        let mut next = self.next.clone();
+        for _ in 1..times {
+            let replacements: Vec<_> = next.iter().copied().map(Some).collect();
+            next = self.next.iter().map(|&root| graph.substitute(root, &replacements)).collect();
+        }
+        Self::new(graph, next, self.states.clone(), self.inputs.clone(), self.parameters.clone())
     }
 
     /// The graph of the expressions.
@@ -67,12 +94,17 @@ impl Mode {
 
     /// The dimension of the input.
     pub fn num_inputs(&self) -> usize {
-        self.inputs
+        self.inputs.len()
     }
 
-    /// The names of the states.
-    pub fn state_names(&self) -> &[String] {
-        &self.state_names
+    /// The coordinates of the state.
+    pub fn states(&self) -> &[Variable] {
+        &self.states
+    }
+
+    /// The coordinates of the input.
+    pub fn inputs(&self) -> &[Variable] {
+        &self.inputs
     }
 
     /// The boxes of the parameters.
@@ -89,7 +121,7 @@ impl Mode {
 
     /// The partial derivatives at a point, in doubles: `A = ∂f/∂x` (`n×n`) and `B = ∂f/∂u` (`n×p`).
     pub fn linearised(&self, x: &[f64], u: &[f64]) -> (nalgebra::DMatrix<f64>, nalgebra::DMatrix<f64>) {
-        let (n, p) = (self.num_states(), self.inputs);
+        let (n, p) = (self.num_states(), self.num_inputs());
         let mut graph = self.graph.clone();
         let mut roots = Vec::with_capacity(n * (n + p));
         for &next in &self.next {
@@ -105,7 +137,7 @@ impl Mode {
 
     /// The system `A x + B u + q`, if the mode is one with exact entries.
     pub fn as_linear(&self) -> Option<LinearSystem> {
-        let (n, p) = (self.num_states(), self.inputs);
+        let (n, p) = (self.num_states(), self.num_inputs());
         let mut graph = self.graph.clone();
         let forms: Option<Vec<_>> =
             self.next.iter().map(|&next| graph.affine(next, (n + p) as u32)).collect();

@@ -1,6 +1,7 @@
 //! The certificate itself.
 
 use crate::model::StateId;
+use crate::numeric::Rational;
 use crate::property::Property;
 
 /// A claim about a property of a model, and what is needed to check it.
@@ -49,6 +50,10 @@ pub struct Step {
     pub lower: Vec<(StateId, f64)>,
     /// The upper bounds; 1 in the goal and 0 elsewhere without a step.
     pub upper: Vec<(StateId, f64)>,
+    /// Lower bounds that are no doubles.
+    pub exact_lower: Vec<(StateId, Rational)>,
+    /// Upper bounds that are no doubles.
+    pub exact_upper: Vec<(StateId, Rational)>,
 }
 
 /// Bounds that reproduce themselves; states ascending.
@@ -60,6 +65,10 @@ pub struct Inductive {
     pub lower: Vec<(StateId, f64)>,
     /// The upper bounds that are below 1.
     pub upper: Vec<(StateId, f64)>,
+    /// Lower bounds that are no doubles, because rounded ones would not reproduce themselves.
+    pub exact_lower: Vec<(StateId, Rational)>,
+    /// Upper bounds that are no doubles.
+    pub exact_upper: Vec<(StateId, Rational)>,
     /// Ranks of the states with a positive lower bound, at least 1: a lower rank is met with positive probability.
     pub ranks: Vec<(StateId, u32)>,
 }

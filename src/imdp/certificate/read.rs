@@ -5,6 +5,9 @@ use super::{CertificateError, FIRST_LINE};
 use crate::files;
 use crate::formats::sha256_hex;
 use crate::model::{StateId, require_memory};
+use crate::numeric::Rational;
+use num_bigint::BigInt;
+use num_traits::Zero;
 use std::path::Path;
 use std::str::FromStr;
 
@@ -81,6 +84,8 @@ impl<'a> Lines<'a> {
                 choices: self.list("choices", number)?,
                 lower: self.list("lower", probability)?,
                 upper: self.list("upper", probability)?,
+                exact_lower: self.list("exact-lower", fraction)?,
+                exact_upper: self.list("exact-upper", fraction)?,
                 ranks: self.list("ranks", number)?,
             }));
         }
@@ -92,6 +97,8 @@ impl<'a> Lines<'a> {
                 choices: self.list("choices", number)?,
                 lower: self.list("lower", probability)?,
                 upper: self.list("upper", probability)?,
+                exact_lower: self.list("exact-lower", fraction)?,
+                exact_upper: self.list("exact-upper", fraction)?,
             });
         }
         Ok(Evidence::Steps(steps))
@@ -160,4 +167,18 @@ fn number<T: FromStr>(text: &str) -> Option<T> {
 fn probability(text: &str) -> Option<f64> {
     let value: f64 = text.parse().ok()?;
     ((0.0..=1.0).contains(&value) && value.is_sign_positive()).then_some(value)
+}
+
+/// Longer numerators and denominators prove nothing that shorter ones would not.
+const LONGEST_NUMBER: usize = 1 << 16;
+
+/// A fraction in `[0, 1]`.
+fn fraction(text: &str) -> Option<Rational> {
+    let (over, under) = text.split_once('/')?;
+    let natural = |text: &str| {
+        let plain = text.len() <= LONGEST_NUMBER && text.bytes().all(|byte| byte.is_ascii_digit());
+        plain.then(|| BigInt::parse_bytes(text.as_bytes(), 10)).flatten()
+    };
+    let (over, under) = (natural(over)?, natural(under)?);
+    (!under.is_zero() && over <= under).then(|| Rational::new(over, under))
 }

@@ -3,7 +3,7 @@
 use super::FIRST_LINE;
 use super::{Certificate, Evidence};
 use crate::model::StateId;
-use crate::numeric::shortest_decimal;
+use crate::numeric::{Rational, shortest_decimal};
 use data_encoding::HEXLOWER;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
@@ -30,6 +30,8 @@ pub fn write(certificate: &Certificate, out: &mut impl Write) -> io::Result<()> 
                 out.list("choices", &step.choices, u32::to_string)?;
                 out.list("lower", &step.lower, |&x| shortest_decimal(x))?;
                 out.list("upper", &step.upper, |&x| shortest_decimal(x))?;
+                out.list("exact-lower", &step.exact_lower, fraction)?;
+                out.list("exact-upper", &step.exact_upper, fraction)?;
             }
         }
         Evidence::Inductive(inductive) => {
@@ -37,11 +39,17 @@ pub fn write(certificate: &Certificate, out: &mut impl Write) -> io::Result<()> 
             out.list("choices", &inductive.choices, u32::to_string)?;
             out.list("lower", &inductive.lower, |&x| shortest_decimal(x))?;
             out.list("upper", &inductive.upper, |&x| shortest_decimal(x))?;
+            out.list("exact-lower", &inductive.exact_lower, fraction)?;
+            out.list("exact-upper", &inductive.exact_upper, fraction)?;
             out.list("ranks", &inductive.ranks, u32::to_string)?;
         }
     }
     let digest = HEXLOWER.encode(&out.hash.finalize());
     writeln!(out.out, "end {digest}")
+}
+
+fn fraction(number: &Rational) -> String {
+    format!("{}/{}", number.numer(), number.denom())
 }
 
 /// A writer of lines that hashes what passes.

@@ -1,6 +1,6 @@
 //! The distinct rows that some state uses.
 
-use crate::model::{IntervalMdp, Row, RowId, StateId};
+use crate::model::{End, IntervalMdp, Row, RowId, StateId};
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
 
@@ -49,6 +49,11 @@ fn content(row: Row<'_>) -> [u8; 32] {
         hash.update(successor.to_le_bytes());
         hash.update(lower.to_le_bytes());
         hash.update(upper.to_le_bytes());
+    }
+    for bound in row.exact {
+        hash.update([u8::from(bound.end == End::Upper)]);
+        hash.update(bound.position.to_le_bytes());
+        hash.update(bound.value.to_string());
     }
     hash.finalize().into()
 }

@@ -1,7 +1,7 @@
 //! Models that engines accept: without lower bounds of 0.
 
 use crate::formats::prism::RAISED_LOWER_BOUND;
-use crate::model::{ImdpError, IntervalMdp, Rows};
+use crate::model::{End, ImdpError, IntervalMdp, Rows};
 
 /// The model with every lower bound of 0 raised to [`RAISED_LOWER_BOUND`], as `model.tra` has it; `None` if there
 /// are no such bounds.
@@ -14,9 +14,12 @@ pub fn raised(model: &IntervalMdp) -> Result<Option<IntervalMdp>, ImdpError> {
     }
     let mut rows = Rows::with_capacity(model.rows().len(), model.rows().num_entries());
     for row in model.rows().iter() {
-        for ((&successor, &lower), &upper) in row.successors.iter().zip(row.lower).zip(row.upper) {
-            let lower = if lower == 0.0 { RAISED_LOWER_BOUND } else { lower };
-            rows.push_entry(successor, lower, upper.max(lower));
+        for (i, &successor) in row.successors.iter().enumerate() {
+            let lower = if row.lower[i] == 0.0 { RAISED_LOWER_BOUND } else { row.lower[i] };
+            rows.push_entry(successor, lower, row.upper[i].max(lower));
+            for end in [End::Lower, End::Upper] {
+                row.exact_bound(end, i).into_iter().for_each(|exact| rows.set_exact(end, exact.clone()));
+            }
         }
         rows.finish_row();
     }

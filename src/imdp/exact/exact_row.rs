@@ -1,7 +1,7 @@
 //! The robust expectation of one row in exact arithmetic.
 //!
-//! The bounds of a row are decimals (the shortest that give the doubles), so over a common denominator `D`
-//! they are integers. If the decimals admit no distribution because a rounding took it away, every bound
+//! The bounds of a row are rational (the shortest decimals that give the doubles, or what stands beside them), so over
+//! a common denominator `D` they are integers. If the decimals admit no distribution because a rounding took it away, every bound
 //! is read as any of the numbers that may have been rounded to it: `l (1 − 2⁻⁵³)` and `u (1 + 2⁻⁵³)`.
 //!
 //! `min_p p·V` is attained by the distribution that gives every successor its lower bound and pours what is
@@ -9,7 +9,7 @@
 //! one cannot help. For the maximum, from the highest value downwards.
 
 use super::values::{ExactValues, SumOfProducts};
-use crate::model::Row;
+use crate::model::{End, Row};
 use crate::numeric::{Rational, decimal_parts};
 use num_bigint::{BigInt, BigUint};
 use num_traits::{One, Zero};
@@ -64,6 +64,9 @@ pub(crate) enum Nature {
 impl ExactRow {
     /// `None` if no distribution fits, or a bound is not a number in `[0, 1]`.
     pub(crate) fn new(row: Row<'_>) -> Option<Self> {
+        if !row.exact.is_empty() {
+            return Self::of_rationals(row);
+        }
         let parts = |bounds: &[f64]| -> Option<Vec<(u64, u32)>> {
             let part = |x: &f64| {
                 let (digits, power) = decimal_parts(*x)?;
@@ -90,6 +93,19 @@ impl ExactRow {
             .map(Self::Big)
     }
 
+    /// A row with bounds that are not the shortest decimals of their doubles, over their common denominator.
+    fn of_rationals(row: Row<'_>) -> Option<Self> {
+        let bounds = |end| (0..row.len()).map(|i| row.rational(end, i)).collect::<Vec<_>>();
+        let (lower, upper) = (bounds(End::Lower), bounds(End::Upper));
+        let scale = lower.iter().chain(&upper).fold(BigInt::one(), |scale, bound| {
+            let common = &scale % bound.denom() == BigInt::zero();
+            if common { scale } else { common_multiple(scale, bound.denom()) }
+        });
+        let scaled = |bound: &Rational| (bound.numer() * (&scale / bound.denom())).to_biguint();
+        let scaled = |bounds: &[Rational]| bounds.iter().map(scaled).collect::<Option<Vec<_>>>();
+        Numerators::new(scale.to_biguint()?, scaled(&lower)?, scaled(&upper)?).map(Self::Big)
+    }
+
     /// `min_p p·V` or `max_p p·V`.
     pub(crate) fn expectation(
         &self,
@@ -104,7 +120,7 @@ impl ExactRow {
     }
 
     /// The successors to which some distribution that attains `max_p p·V` gives positive probability.
-    pub(crate) fn maximal_support(&self, successors: &[u32], values: &[f64]) -> Vec<bool> {
+    pub(crate) fn maximal_support(&self, successors: &[u32], values: &ExactValues<'_>) -> Vec<bool> {
         match self {
             Self::Small(row) => row.maximal_support(successors, values),
             Self::Big(row) => row.maximal_support(successors, values),
@@ -120,6 +136,13 @@ impl ExactRow {
             Self::Big(row) => row.certain_rank(successors, rank),
         }
     }
+}
+
+/// The least common multiple of two denominators.
+fn common_multiple(a: BigInt, b: &BigInt) -> BigInt {
+    // `a/b` in lowest terms has the denominator `b / gcd(a, b)`.
+    let reduced = Rational::new(a.clone(), b.clone());
+    a * reduced.denom()
 }
 
 /// The row whose bounds are all numbers that may have been rounded to the given ones.
@@ -155,7 +178,7 @@ impl<M: Mass> Numerators<M> {
     fn expectation(&self, successors: &[u32], values: &ExactValues<'_>, nature: Nature) -> Rational {
         let mut left = self.slack.clone();
         let mut sum = SumOfProducts::default();
-        for i in order(successors, values.doubles(), nature) {
+        for i in order(successors, values, nature) {
             let poured = if self.room[i] < left { self.room[i].clone() } else { left.clone() };
             left -= &poured;
             let mut mass = self.lower[i].clone();
@@ -163,16 +186,15 @@ impl<M: Mass> Numerators<M> {
             sum.add(mass.digits(), values.numerator(successors[i]));
         }
         let scale: BigUint = self.scale.clone().into();
-        Rational::new_raw(BigInt::from(sum.total()), BigInt::from(scale << values.shift()))
+        Rational::new_raw(BigInt::from(sum.total()), BigInt::from(values.denominator_times(scale)))
     }
 
-    fn maximal_support(&self, successors: &[u32], values: &[f64]) -> Vec<bool> {
+    fn maximal_support(&self, successors: &[u32], values: &ExactValues<'_>) -> Vec<bool> {
         let mut left = self.slack.clone();
         let mut support = vec![false; successors.len()];
         let order = order(successors, values, Nature::Max);
         // Equal values share what is left in any way.
-        for equal in order.chunk_by(|&i, &j| values[successors[i] as usize] == values[successors[j] as usize])
-        {
+        for equal in order.chunk_by(|&i, &j| values.compare(successors[i], successors[j]).is_eq()) {
             for &i in equal {
                 support[i] = !self.lower[i].is_zero() || (!self.room[i].is_zero() && !left.is_zero());
             }
@@ -207,30 +229,35 @@ impl<M: Mass> Numerators<M> {
 }
 
 /// Positions in the order in which nature pours.
-fn order(successors: &[u32], values: &[f64], nature: Nature) -> Vec<usize> {
-    let value = |i: usize| values[successors[i] as usize];
+fn order(successors: &[u32], values: &ExactValues<'_>, nature: Nature) -> Vec<usize> {
     let mut order: Vec<usize> = (0..successors.len()).collect();
+    let compare = |i: usize, j: usize| values.compare(successors[i], successors[j]);
     match nature {
-        Nature::Min => order.sort_unstable_by(|&i, &j| value(i).total_cmp(&value(j))),
-        Nature::Max => order.sort_unstable_by(|&i, &j| value(j).total_cmp(&value(i))),
+        Nature::Min => order.sort_unstable_by(|&i, &j| compare(i, j)),
+        Nature::Max => order.sort_unstable_by(|&i, &j| compare(j, i)),
     }
     order
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::values::Replaced;
     use super::*;
     use crate::numeric::from_decimal;
+
+    fn exact_values(doubles: &[f64]) -> ExactValues<'_> {
+        ExactValues::with(doubles, &Replaced::new())
+    }
 
     fn row(bounds: &[(f64, f64)]) -> Option<ExactRow> {
         let successors: Vec<u32> = (0..bounds.len() as u32).collect();
         let (lower, upper): (Vec<f64>, Vec<f64>) = bounds.iter().copied().unzip();
-        ExactRow::new(Row { successors: &successors, lower: &lower, upper: &upper })
+        ExactRow::new(Row { successors: &successors, lower: &lower, upper: &upper, exact: &[] })
     }
 
     fn expectation(bounds: &[(f64, f64)], values: &[f64], nature: Nature) -> Rational {
         let successors: Vec<u32> = (0..bounds.len() as u32).collect();
-        let found = row(bounds).unwrap().expectation(&successors, &ExactValues::new(values), nature);
+        let found = row(bounds).unwrap().expectation(&successors, &exact_values(values), nature);
         Rational::new(found.numer().clone(), found.denom().clone())
     }
 
@@ -262,9 +289,15 @@ mod tests {
     fn supports_of_maxima_share_ties() {
         let successors = [0, 1, 2, 3];
         let row = row(&[(0.0, 0.5), (0.0, 0.5), (0.0, 1.0), (0.1, 0.1)]).unwrap();
-        assert_eq!(row.maximal_support(&successors, &[0.5, 1.0, 0.5, 0.0]), [true, true, true, true]);
-        assert_eq!(row.maximal_support(&successors, &[1.0, 1.0, 0.5, 0.0]), [true, true, false, true]);
-        assert_eq!(row.maximal_support(&successors, &[0.0; 4]), [true; 4]);
+        assert_eq!(
+            row.maximal_support(&successors, &exact_values(&[0.5, 1.0, 0.5, 0.0])),
+            [true, true, true, true]
+        );
+        assert_eq!(
+            row.maximal_support(&successors, &exact_values(&[1.0, 1.0, 0.5, 0.0])),
+            [true, true, false, true]
+        );
+        assert_eq!(row.maximal_support(&successors, &exact_values(&[0.0; 4])), [true; 4]);
     }
 
     #[test]

@@ -6,4 +6,4 @@ mod values;
 
 pub(crate) use exact_row::{ExactRow, Nature};
 pub(crate) use support::maximal_support;
-pub(crate) use values::ExactValues;
+pub(crate) use values::{ExactValues, Replaced};

@@ -1,11 +1,12 @@
 //! What a writer of certificates needs to know exactly.
 
 use super::exact_row::ExactRow;
+use super::values::ExactValues;
 use crate::model::Row;
 
 /// By position: whether some distribution that attains `max_p p·V` gives the successor positive probability.
 ///
 /// Decided exactly. `None` if the row admits no distribution.
-pub(crate) fn maximal_support(row: Row<'_>, values: &[f64]) -> Option<Vec<bool>> {
+pub(crate) fn maximal_support(row: Row<'_>, values: &ExactValues<'_>) -> Option<Vec<bool>> {
     Some(ExactRow::new(row)?.maximal_support(row.successors, values))
 }

@@ -7,7 +7,7 @@ use super::netcdf::{NetcdfError, NetcdfWriter};
 use super::prism::{MAX_COUNT, TraWriter, check_names, write_lab, write_sta};
 use super::umb::{Compression, UmbWriter};
 use super::{Format, native};
-use crate::model::{IntervalMdp, MemoryError, require_memory};
+use crate::model::{ExactBound, IntervalMdp, MemoryError, RowId, StateId, require_memory};
 use crate::progress::Progress;
 use std::io::{self, Write};
 
@@ -59,6 +59,49 @@ pub enum WriteError {
     /// The text of the rows, which is made once, does not fit into memory.
     #[error(transparent)]
     Memory(#[from] MemoryError),
+    /// It has a bound that the format cannot express.
+    #[error(
+        "a bound of successor {successor} in row {row} is {bound}, which {format} cannot hold: it has {holds}; write \
+         {instead}, which keeps the number"
+    )]
+    Bound {
+        /// The row.
+        row: RowId,
+        /// The successor.
+        successor: StateId,
+        /// The bound.
+        bound: String,
+        /// The format.
+        format: &'static str,
+        /// What it has instead.
+        holds: &'static str,
+        /// A format that has such bounds.
+        instead: &'static str,
+    },
+}
+
+/// Refuses bounds that a format would have to replace by others.
+fn check_bounds(model: &IntervalMdp, format: Format) -> Result<(), WriteError> {
+    const DOUBLES: &str = "doubles, each for its shortest decimal";
+    let (name, holds, instead) = match format {
+        Format::Native => ("a .dynabs file", DOUBLES, ".tra or .drn"),
+        Format::Umb => ("UMB", DOUBLES, ".tra or .drn"),
+        Format::Netcdf => ("NetCDF", DOUBLES, ".tra or .drn"),
+        Format::Prism | Format::Combined => ("a .tra file", "decimals only", ".drn"),
+        Format::Bmdp => ("bmdp-tool's format", "decimals only", ".drn"),
+        Format::Drn => return Ok(()),
+    };
+    let fits = |bound: &ExactBound| holds != DOUBLES && bound.value.is_decimal();
+    for row in model.rows().inexact_rows() {
+        let entries = model.rows().row(row);
+        let mut bounds = entries.exact.iter();
+        if let Some(bound) = bounds.find(|bound| !fits(bound)) {
+            let successor = entries.successors[bound.position as usize];
+            let bound = bound.value.to_string();
+            return Err(WriteError::Bound { row, successor, bound, format: name, holds, instead });
+        }
+    }
+    Ok(())
 }
 
 /// What an entry of a row takes as text, or as the arrays of an archive.
@@ -70,6 +113,7 @@ impl<'a> ModelWriter<'a> {
     /// # Errors
     /// [`WriteError`] if the format cannot express the model.
     pub fn new(model: &'a IntervalMdp, format: Format, compression: Compression) -> Result<Self, WriteError> {
+        check_bounds(model, format)?;
         if format != Format::Native {
             let bytes = ENTRY_BYTES * model.rows().num_entries() as u64;
             require_memory(format!("writing the rows as {}", format.extension()), bytes)?;

@@ -5,6 +5,7 @@
 //! row ids* and rows are stored once: memory follows rows, not transitions.
 
 mod choices;
+mod exact_bounds;
 mod interval_mdp;
 mod labels;
 mod memory;
@@ -13,6 +14,7 @@ mod rewards;
 mod rows;
 
 pub use choices::{Choices, ChoicesBuilder, RowRange};
+pub use exact_bounds::{End, ExactBound};
 pub use fixedbitset::FixedBitSet as StateSet;
 pub use interval_mdp::{ActionNames, ImdpError, IntervalMdp, ModelKind, Parts, Size};
 pub use labels::{Labels, StateVariable, StateVariables, VariableValues};

@@ -1,7 +1,10 @@
 //! Interval distributions, stored one after the other.
 
+use super::exact_bounds::{End, ExactBound};
 use super::{RowId, StateId};
 use crate::exact::ExactRow;
+use crate::numeric::Exact;
+use std::collections::BTreeMap;
 
 /// Interval distributions over successor states, in compressed sparse row form.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,9 +14,16 @@ pub struct Rows {
     successors: Vec<StateId>,
     lower: Vec<f64>,
     upper: Vec<f64>,
+    /// The bounds that are not the shortest decimals of their doubles: rare.
+    exact: BTreeMap<RowId, Vec<ExactBound>>,
+    /// Those of the row under construction.
+    pending: Vec<ExactBound>,
 }
 
 /// One row: `lower[i] ≤ p(successors[i]) ≤ upper[i]`.
+///
+/// A double stands for the shortest decimal that gives it. Where a bound is another number, the double is the one
+/// nearest to it, and the number itself is in `exact`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row<'a> {
     /// The successor states, ascending.
@@ -22,6 +32,8 @@ pub struct Row<'a> {
     pub lower: &'a [f64],
     /// The upper bounds.
     pub upper: &'a [f64],
+    /// The bounds that are not the shortest decimals of their doubles, by position.
+    pub exact: &'a [ExactBound],
 }
 
 /// What makes a list of intervals not a row.
@@ -130,7 +142,7 @@ fn sum_minus_one(values: &[f64]) -> f64 {
 impl Rows {
     /// No rows yet.
     pub fn new() -> Self {
-        Self { starts: vec![0], successors: vec![], lower: vec![], upper: vec![] }
+        Self::with_capacity(0, 0)
     }
 
     /// No rows yet, with room for this many rows and entries.
@@ -142,6 +154,8 @@ impl Rows {
             successors: Vec::with_capacity(entries),
             lower: Vec::with_capacity(entries),
             upper: Vec::with_capacity(entries),
+            exact: BTreeMap::new(),
+            pending: vec![],
         }
     }
 
@@ -162,7 +176,7 @@ impl Rows {
             starts.push(end);
         }
         let consistent = [successors.len(), lower.len(), upper.len()] == [end; 3];
-        consistent.then_some(Self { starts, successors, lower, upper })
+        consistent.then(|| Self { starts, successors, lower, upper, ..Self::new() })
     }
 
     /// Adds `lower ≤ p(successor) ≤ upper` to the row under construction.
@@ -172,10 +186,23 @@ impl Rows {
         self.upper.push(upper);
     }
 
+    /// Says what one of the bounds of the entry added last is exactly; its double is the nearest one.
+    pub fn set_exact(&mut self, end: End, value: Exact) {
+        let start = self.starts.last().copied().unwrap_or_default();
+        if let Some(position) = (self.successors.len() - start).checked_sub(1) {
+            self.pending.push(ExactBound { position: position as u32, end, value });
+        }
+    }
+
     /// Ends the row under construction and returns its id.
     pub fn finish_row(&mut self) -> RowId {
         self.starts.push(self.successors.len());
-        (self.starts.len() - 2) as RowId
+        let id = (self.starts.len() - 2) as RowId;
+        if !self.pending.is_empty() {
+            self.pending.shrink_to_fit();
+            self.exact.insert(id, std::mem::take(&mut self.pending));
+        }
+        id
     }
 
     /// Adds a copy of a row and returns its id.
@@ -183,6 +210,7 @@ impl Rows {
         self.successors.extend_from_slice(row.successors);
         self.lower.extend_from_slice(row.lower);
         self.upper.extend_from_slice(row.upper);
+        self.pending.extend_from_slice(row.exact);
         self.finish_row()
     }
 
@@ -199,6 +227,8 @@ impl Rows {
         self.successors.clear();
         self.lower.clear();
         self.upper.clear();
+        self.exact.clear();
+        self.pending.clear();
     }
 
     /// Gives back the room that is not used.
@@ -212,6 +242,8 @@ impl Rows {
     /// Appends the rows of `other`, renumbered to follow these.
     pub fn append(&mut self, other: &Self) {
         let shift = self.successors.len();
+        let first = self.len() as RowId;
+        self.exact.extend(other.exact.iter().map(|(id, bounds)| (first + id, bounds.clone())));
         self.starts.extend(other.starts[1..].iter().map(|start| start + shift));
         self.successors.extend_from_slice(&other.successors);
         self.lower.extend_from_slice(&other.lower);
@@ -240,7 +272,13 @@ impl Rows {
             successors: &self.successors[range.clone()],
             lower: &self.lower[range.clone()],
             upper: &self.upper[range],
+            exact: self.exact.get(&id).map_or(&[], Vec::as_slice),
         }
+    }
+
+    /// The rows with bounds that are not the shortest decimals of their doubles.
+    pub fn inexact_rows(&self) -> impl Iterator<Item = RowId> + '_ {
+        self.exact.keys().copied()
     }
 
     /// The number of entries of a row.

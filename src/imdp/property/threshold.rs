@@ -124,9 +124,14 @@ impl Threshold {
         let (Some(lower), Some(upper)) = (from_dyadic(lower), from_dyadic(upper)) else {
             return Verdict::Unknown;
         };
+        self.decide_exactly(&lower, &upper)
+    }
+
+    /// The same for bounds that are given exactly.
+    pub fn decide_exactly(&self, lower: &Rational, upper: &Rational) -> Verdict {
         let comparison = self.comparison;
         let satisfies = |value: &Rational| comparison.compares(value, &self.probability.exact);
-        match (satisfies(&lower), satisfies(&upper)) {
+        match (satisfies(lower), satisfies(upper)) {
             (true, true) => Verdict::Holds,
             (false, false) => Verdict::Fails,
             _ => Verdict::Unknown,

@@ -13,11 +13,18 @@ use super::guess::{LevelSets, levels};
 use super::options::{Control, Status};
 use super::query::Players;
 use super::range_optimum::RangeOptimum;
+use super::slow::Precise;
 use super::sweep::Sweep;
 use crate::model::{IntervalMdp, RowId, StateId, StateSet};
 
 /// Raises of a refuted guess are multiplied by powers of 8 up to this one: 8⁸ is 1.7·10⁷.
 const LEAPS: i32 = 8;
+
+/// So many multiplications are worth a try in any case.
+const LEAST_BUDGET: u64 = 5_000_000;
+
+/// Whoever has not come to an end after so many sweeps never will.
+const LAST_SWEEP: u64 = 1 << 20;
 
 /// The bounds of the whole model, as far as they are known.
 pub(super) struct Shared<'a> {
@@ -31,6 +38,11 @@ pub(super) struct Shared<'a> {
     pub choices: Vec<u32>,
     /// Whether anybody will ask for it.
     pub wants_policy: bool,
+    /// Bounds that are no doubles; those in `lower` and `upper` are rounded to the safe side.
+    pub precise_lower: Precise,
+    pub precise_upper: Precise,
+    /// After so many sweeps it is time for linear equations.
+    pub patience: u64,
     /// The rows of the component being solved.
     pub own_rows: StateSet,
 }
@@ -64,6 +76,8 @@ impl<'s, 'a> Component<'s, 'a> {
         let mut margin = share;
         let (mut rate, mut previous) = (0.0, 0.0);
         let (mut next_guess, mut next_jump) = (1, 8);
+        let mut next_strategies = self.shared.patience;
+        let entries: usize = self.sweep.rows().map(|row| self.shared.model.rows().row_len(row)).sum();
         for sweeps in 1u64.. {
             if let Some(reason) = control.stop() {
                 return Some(reason);
@@ -87,7 +101,15 @@ impl<'s, 'a> Component<'s, 'a> {
                 {
                     break;
                 }
-                if change == 0.0 {
+            }
+            if change == 0.0 || sweeps >= next_strategies {
+                next_strategies = sweeps.max(self.shared.patience).saturating_mul(16);
+                // As much work as all sweeps so far.
+                let budget = LEAST_BUDGET.max(2 * sweeps * entries as u64);
+                if self.solve_by_strategies(share, budget, control) {
+                    break;
+                }
+                if change == 0.0 || sweeps >= LAST_SWEEP {
                     // Nothing will improve any more: settle for the tightest bound that can be verified.
                     margin *= 4.0;
                     if margin > 2.0 {
@@ -101,7 +123,7 @@ impl<'s, 'a> Component<'s, 'a> {
     }
 
     /// How far apart the bounds of everything this part leads to are.
-    fn gap_behind(&self) -> f64 {
+    pub(super) fn gap_behind(&self) -> f64 {
         let shared = &self.shared;
         let inside = |s: &StateId| self.sweep.states.binary_search(s).is_ok();
         let mut gap: f64 = 0.0;
@@ -150,7 +172,7 @@ impl<'s, 'a> Component<'s, 'a> {
     /// Where a single step does not lose any of the margin, rounding alone can spoil a guess `C`. The mean
     /// of `C, T(C), …, T^{k−1}(C)` spreads what is lost in `k` steps evenly: for a linear operator it is
     /// raised by `(T^k(C) − C)/k`. Means start anew at every power of two, to forget a bad beginning.
-    fn guess(&mut self, behind: f64, margin: f64, rounds: u64) -> bool {
+    pub(super) fn guess(&mut self, behind: f64, margin: f64, rounds: u64) -> bool {
         let states = self.sweep.states.clone();
         let raised = |&s: &StateId| (self.shared.lower[s as usize] + behind + margin).min(1.0);
         let mut iterate: Vec<f64> = states.iter().map(raised).collect();

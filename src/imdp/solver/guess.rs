@@ -11,11 +11,11 @@ use std::collections::HashMap;
 #[derive(Default)]
 pub(super) struct LevelSets {
     /// End components, as positions in the component's states.
-    classes: Vec<Vec<u32>>,
+    pub classes: Vec<Vec<u32>>,
     /// Rows with `opt_p p·U ≤ max_C U` for a class `C`, decided exactly: rounding must not matter there.
     ///
     /// For a minimising nature `p(C) = 1` is possible, for a maximising one it is inevitable.
-    capped: Vec<(RowId, usize)>,
+    pub capped: Vec<(RowId, usize)>,
 }
 
 impl LevelSets {
@@ -70,14 +70,11 @@ pub(super) fn levels(component: &Component<'_, '_>) -> LevelSets {
         return LevelSets::default();
     }
     let choices_of = |&s: &StateId| -> Vec<u32> {
-        let ranges = shared.model.choices().ranges(s);
         let all = shared.model.choices().rows(s);
         match players.policy {
             Direction::Max => all.filter_map(|row| position.get(&row).copied()).collect(),
             Direction::Min => {
-                let best = shared.lower_rows.best(ranges);
-                let attains = |row: &RowId| shared.lower_rows.values()[*row as usize] <= best;
-                all.filter(attains).take(1).filter_map(|row| position.get(&row).copied()).collect()
+                greedy_row(shared, s).and_then(|row| position.get(&row).copied()).into_iter().collect()
             }
         }
     };
@@ -86,6 +83,12 @@ pub(super) fn levels(component: &Component<'_, '_>) -> LevelSets {
     let classes = end_components(&part);
     let capped = capped_rows(component, &classes, &part.rows);
     LevelSets { classes, capped }
+}
+
+/// What a minimising policy chooses for the current lower bounds.
+pub(super) fn greedy_row(shared: &Shared<'_>, state: StateId) -> Option<RowId> {
+    let best = shared.lower_rows.best(shared.model.choices().ranges(state));
+    shared.model.choices().rows(state).find(|&row| shared.lower_rows.values()[row as usize] <= best)
 }
 
 fn capped_rows(component: &Component<'_, '_>, classes: &[Vec<u32>], rows: &[RowId]) -> Vec<(RowId, usize)> {

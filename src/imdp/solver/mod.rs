@@ -10,9 +10,10 @@
 //!
 //! - with a bound, by that many steps rounded down and up (`bounded`);
 //! - without, by deciding exactly where the value is 0 or 1 (`graph`), then part by part from below, and
-//!   from above by values that the operator does not raise (`unbounded`).
+//!   from above by values that the operator does not raise (`unbounded`), and by linear equations where that is
+//!   too slow (`slow`).
 //!
-//! Bounds of rows are read as the shortest decimals that give the doubles. Without a step bound the value
+//! Bounds of rows are read as the shortest decimals that give the doubles, or as what stands beside them. Without a step bound the value
 //! can jump with the last digit (whether upper bounds sum to 1 decides whether nature can stay for ever),
 //! so there the decimals are the model; step-bounded results hold for the doubles taken literally as well.
 //!
@@ -35,6 +36,7 @@ mod prune;
 mod query;
 mod range_optimum;
 mod reward;
+mod slow;
 mod solution;
 mod sweep;
 mod unbounded;

@@ -13,10 +13,15 @@ use super::options::Control;
 use super::policy::{NO_CHOICE, first_choice};
 use super::query::{Direction, Players};
 use super::range_optimum::RangeOptimum;
+use super::slow::{Precise, to_rational};
 use super::sweep::Sweep;
 use super::{Policy, Solution, SolveError, SolverOptions, Status, ValueBounds};
 use crate::certificate::{Evidence, Inductive};
+use crate::exact::Replaced;
 use crate::model::{IntervalMdp, RowId, StateId, StateSet, require_memory};
+
+/// Sweeps of a cyclic part before it is given to linear equations.
+const PATIENCE: u64 = 256;
 
 /// The value of `safe U goal`.
 pub(super) fn until(
@@ -25,6 +30,17 @@ pub(super) fn until(
     goal: &StateSet,
     players: Players,
     options: &SolverOptions<'_>,
+) -> Result<Solution, SolveError> {
+    until_with_patience(model, (safe, goal), players, options, PATIENCE)
+}
+
+/// The same, with another number of sweeps before linear equations.
+pub(super) fn until_with_patience(
+    model: &IntervalMdp,
+    (safe, goal): (&StateSet, &StateSet),
+    players: Players,
+    options: &SolverOptions<'_>,
+    patience: u64,
 ) -> Result<Solution, SolveError> {
     let states = model.num_states();
     let rows = model.rows().len();
@@ -48,6 +64,9 @@ pub(super) fn until(
         upper_rows: table,
         choices: known.choices.clone(),
         wants_policy: options.policy || options.evidence,
+        precise_lower: Precise::new(),
+        precise_upper: Precise::new(),
+        patience,
         own_rows: StateSet::with_capacity(rows),
     };
     // Every cyclic part may add its share to the distance of the bounds of what it depends on.
@@ -227,11 +246,22 @@ impl Shared<'_> {
         // Rows as lists, and as lists by state; ranks.
         let bytes = 40 * rows.num_entries() + 64 * (rows.len() + choices.len());
         require_memory("the certificate", bytes as u64)?;
+        let of_doubles = |precise: &Precise| {
+            let mut states = moving.clone();
+            precise.keys().for_each(|&s| states.remove(s as usize));
+            states
+        };
+        let fractions = |precise: &Precise| -> Replaced {
+            precise.iter().map(|(&s, &units)| (s, to_rational(units))).collect()
+        };
+        let (exact_lower, exact_upper) = (fractions(&self.precise_lower), fractions(&self.precise_upper));
         Ok(Inductive {
             choices: unlike(choices, moving.ones(), NO_CHOICE),
-            lower: unlike(&self.lower, moving.ones(), 0.0),
-            upper: unlike(&self.upper, moving.ones(), 1.0),
-            ranks: ranks(self.model, moving, self.players, &self.lower, choices),
+            lower: unlike(&self.lower, of_doubles(&self.precise_lower).ones(), 0.0),
+            upper: unlike(&self.upper, of_doubles(&self.precise_upper).ones(), 1.0),
+            ranks: ranks(self.model, moving, self.players, &self.lower, &exact_lower, choices),
+            exact_lower: exact_lower.into_iter().collect(),
+            exact_upper: exact_upper.into_iter().collect(),
         })
     }
 }

@@ -1,13 +1,15 @@
 //! The checker.
 
+use super::bounds::Bounds;
 use super::one_step::{ExactRows, NO_CHOICE, SideProof};
 use super::ranks::check_ranks;
 use super::task::Task;
 use super::{Rejection, Side};
 use crate::certificate::{Certificate, Evidence, FileDigest, Inductive, Step};
 use crate::model::{IntervalMdp, StateId};
-use crate::numeric::{one_minus_down, one_minus_up};
+use crate::numeric::{Rational, one_minus_down, one_minus_up};
 use crate::property::Verdict;
+use num_traits::One;
 
 /// What an accepted certificate proves, and how much was checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,7 +44,7 @@ pub fn check(
     }
     let task = Task::new(&certificate.property, model)?;
     let rows = ExactRows::new(model, &task)?;
-    let start = |side| SideProof::new(side, &rows, &task, task.indicator());
+    let start = |side| SideProof::new(side, &rows, &task);
     let mut proof = Proof {
         task: &task,
         rows: &rows,
@@ -97,10 +99,16 @@ impl Proof<'_> {
             return Err(Rejection::Steps { found, expected: horizon });
         }
         for (k, step) in (1..).zip(steps) {
-            self.assign(&step.choices, "choices", Some(k), |proof, s, choice| proof.choices[s] = choice)?;
+            self.assign(&step.choices, "choices", Some(k), |proof, s, choice| proof.choices[s] = *choice)?;
             let (mut lower, mut upper) = (self.lower.values.clone(), self.upper.values.clone());
-            self.assign(&step.lower, "lower bounds", Some(k), |_, s, value| lower[s] = value)?;
-            self.assign(&step.upper, "upper bounds", Some(k), |_, s, value| upper[s] = value)?;
+            self.assign(&step.lower, "lower bounds", Some(k), |_, s, value| lower.set(s, *value))?;
+            self.assign(&step.upper, "upper bounds", Some(k), |_, s, value| upper.set(s, *value))?;
+            self.assign(&step.exact_lower, "exact lower bounds", Some(k), |_, s, value| {
+                lower.set_exact(s, value.clone());
+            })?;
+            self.assign(&step.exact_upper, "exact upper bounds", Some(k), |_, s, value| {
+                upper.set_exact(s, value.clone());
+            })?;
             self.lower.step(lower, &self.choices, Some(k))?;
             self.upper.step(upper, &self.choices, Some(k))?;
         }
@@ -113,13 +121,21 @@ impl Proof<'_> {
     }
 
     fn unbounded(&mut self, inductive: &Inductive) -> Result<u64, Rejection> {
-        let (mut lower, mut upper) = (self.task.indicator(), self.task.indicator());
-        self.task.moving.ones().for_each(|s| upper[s] = 1.0);
-        let mut ranks = vec![0; lower.len()];
-        self.assign(&inductive.choices, "choices", None, |proof, s, choice| proof.choices[s] = choice)?;
-        self.assign(&inductive.lower, "lower bounds", None, |_, s, value| lower[s] = value)?;
-        self.assign(&inductive.upper, "upper bounds", None, |_, s, value| upper[s] = value)?;
-        self.assign(&inductive.ranks, "ranks", None, |_, s, rank| ranks[s] = rank)?;
+        let mut lower = Bounds::new(Side::Lower, self.task.indicator());
+        let mut upper = Bounds::new(Side::Upper, self.task.indicator());
+        self.task.moving.ones().for_each(|s| upper.set(s, 1.0));
+        let mut ranks = vec![0; self.choices.len()];
+        let Inductive { exact_lower, exact_upper, .. } = inductive;
+        self.assign(&inductive.choices, "choices", None, |proof, s, choice| proof.choices[s] = *choice)?;
+        self.assign(&inductive.lower, "lower bounds", None, |_, s, value| lower.set(s, *value))?;
+        self.assign(&inductive.upper, "upper bounds", None, |_, s, value| upper.set(s, *value))?;
+        self.assign(exact_lower, "exact lower bounds", None, |_, s, value| {
+            lower.set_exact(s, value.clone())
+        })?;
+        self.assign(exact_upper, "exact upper bounds", None, |_, s, value| {
+            upper.set_exact(s, value.clone())
+        })?;
+        self.assign(&inductive.ranks, "ranks", None, |_, s, rank| ranks[s] = *rank)?;
         self.lower.values = lower;
         self.upper.values = upper;
         self.stay(None)?;
@@ -136,16 +152,17 @@ impl Proof<'_> {
     }
 
     /// Enters a list into a table by state; only moving states may be listed, in order.
-    fn assign<T: Copy>(
+    fn assign<T>(
         &mut self,
         list: &[(StateId, T)],
         what: &'static str,
         step: Option<u64>,
-        mut enter: impl FnMut(&mut Self, usize, T),
+        mut enter: impl FnMut(&mut Self, usize, &T),
     ) -> Result<(), Rejection> {
         let rejected = |state, problem| Err(Rejection::State { step, state, what, problem });
         let mut previous = None;
-        for &(state, item) in list {
+        for (state, item) in list {
+            let state = *state;
             if previous.replace(state).is_some_and(|previous| previous >= state) {
                 return rejected(state, "is out of order");
             }
@@ -161,9 +178,12 @@ impl Proof<'_> {
     fn check_claims(&self, lower: f64, upper: f64) -> Result<Option<Verdict>, Rejection> {
         let mut verdicts = vec![];
         for s in self.rows.model.initial().ones() {
-            let (mut low, mut high) = (self.lower.values[s], self.upper.values[s]);
+            let (lower_bounds, upper_bounds) = (&self.lower.values, &self.upper.values);
+            let (mut low, mut high) = (lower_bounds.double(s), upper_bounds.double(s));
+            let mut exact = (lower_bounds.rational(s), upper_bounds.rational(s));
             if self.task.complement {
                 (low, high) = (one_minus_down(high), one_minus_up(low));
+                exact = (Rational::one() - exact.1, Rational::one() - exact.0);
             }
             let state = s as StateId;
             if !Side::Lower.follows(lower, low) {
@@ -172,7 +192,8 @@ impl Proof<'_> {
             if !Side::Upper.follows(upper, high) {
                 return Err(Rejection::Claim { side: Side::Upper, claimed: upper, proved: high, state });
             }
-            verdicts.extend(self.task.objective.threshold.as_ref().map(|t| t.decide(low, high)));
+            verdicts
+                .extend(self.task.objective.threshold.as_ref().map(|t| t.decide_exactly(&exact.0, &exact.1)));
         }
         Ok(self.task.objective.threshold.as_ref().map(|_| Verdict::in_all(verdicts)))
     }

@@ -6,7 +6,8 @@
 //!
 //! # What is proved
 //!
-//! The model is what its files say, bounds of rows being the shortest decimals that give the doubles; a
+//! The model is what its files say: bounds of rows are the decimals written in texts, and the shortest decimals that
+//! give the doubles of UMB, NetCDF and native files. A
 //! row to which rounding left no distribution is widened by the rounding (`exact_row`). A property asks for
 //! the probability of `safe U goal`, perhaps within `H` steps, or of `X goal`; that of `G` is 1 minus that
 //! of its complement with both players flipped. States are *moving* if their value depends on choices: safe,
@@ -59,8 +60,9 @@
 //!
 //! A row's expectation is computed once per step and side, and only if a successor's value changed, rounded
 //! exactly to the double next to it on the side to be proved and then compared with the bounds of all
-//! states that share it: bounds are doubles, so nothing is lost.
+//! states that share it: bounds are doubles, so nothing is lost. Bounds that are fractions are compared exactly.
 
+mod bounds;
 mod check;
 mod extremum;
 mod one_step;

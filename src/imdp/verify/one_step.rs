@@ -1,11 +1,11 @@
 //! One application of the operator: whether bounds follow from the bounds one step later.
 
 use super::Rejection;
+use super::bounds::Bounds;
 use super::extremum::Extremum;
 use super::side::Side;
 use super::task::Task;
 use crate::exact::ExactRow;
-use crate::exact::ExactValues;
 use crate::model::{IntervalMdp, MemoryError, RowId, StateId, StateSet, require_memory};
 use rayon::prelude::*;
 
@@ -56,7 +56,7 @@ pub(super) struct SideProof<'a> {
     /// Whether the policy has to make the bound true: a maximising one the lower, a minimising one the upper.
     pub follows_policy: bool,
     /// The bounds that the step to be checked leads to.
-    pub values: Vec<f64>,
+    pub values: Bounds,
     /// The expectations of rows, rounded to the proof's side, and which of them are those of `values`.
     expectations: Vec<f64>,
     fresh: StateSet,
@@ -66,14 +66,14 @@ pub(super) struct SideProof<'a> {
 
 impl<'a> SideProof<'a> {
     /// Starts with bounds that hold before the first step.
-    pub(super) fn new(side: Side, rows: &'a ExactRows<'a>, task: &'a Task, values: Vec<f64>) -> Self {
+    pub(super) fn new(side: Side, rows: &'a ExactRows<'a>, task: &'a Task) -> Self {
         let count = rows.rows.len();
         Self {
             side,
             rows,
             task,
             follows_policy: task.policy_maximises == (side == Side::Lower),
-            values,
+            values: Bounds::new(side, task.indicator()),
             expectations: vec![0.0; count],
             fresh: StateSet::with_capacity(count),
             evaluated: 0,
@@ -83,12 +83,7 @@ impl<'a> SideProof<'a> {
     /// Checks that `next` follows from `values` in one step, and makes it the new `values`.
     ///
     /// `choices` is what the policy does in that step.
-    pub(super) fn step(
-        &mut self,
-        next: Vec<f64>,
-        choices: &[u32],
-        step: Option<u64>,
-    ) -> Result<(), Rejection> {
+    pub(super) fn step(&mut self, next: Bounds, choices: &[u32], step: Option<u64>) -> Result<(), Rejection> {
         if self.follows_policy {
             let chosen = self.chosen_rows(&next, choices, step)?;
             let rows: StateSet = chosen.iter().map(|&(_, row)| row as usize).collect();
@@ -98,8 +93,9 @@ impl<'a> SideProof<'a> {
             self.evaluate(&self.rows.used)?;
             self.check_all_choices(&next, step)?;
         }
+        self.check_fractions(&next, choices, step)?;
         let Self { rows, fresh, values, .. } = self;
-        let changed = |s: &StateId| values[*s as usize] != next[*s as usize];
+        let changed = |s: &StateId| !values.agrees(&next, *s as usize);
         let stale: Vec<usize> = fresh
             .ones()
             .filter(|&row| rows.model.rows().row(row as RowId).successors.iter().any(changed))
@@ -112,11 +108,12 @@ impl<'a> SideProof<'a> {
     /// The moving states whose bound is not trivial, and the rows that the policy chooses there.
     fn chosen_rows(
         &self,
-        next: &[f64],
+        next: &Bounds,
         choices: &[u32],
         step: Option<u64>,
     ) -> Result<Vec<(usize, RowId)>, Rejection> {
-        let open = self.task.moving.ones().filter(|&s| next[s] != self.side.trivial());
+        let trivial = |s: usize| next.fraction(s).is_none() && next.double(s) == self.side.trivial();
+        let open = self.task.moving.ones().filter(|&s| !trivial(s));
         let chosen = open.map(|s| {
             let row = self.rows.model.choices().row_of_choice(s as StateId, choices[s]);
             let missing = Rejection::NoChoice { step, state: s as StateId, side: self.side };
@@ -127,31 +124,69 @@ impl<'a> SideProof<'a> {
 
     fn check_policy(
         &self,
-        next: &[f64],
+        next: &Bounds,
         chosen: &[(usize, RowId)],
         step: Option<u64>,
     ) -> Result<(), Rejection> {
-        let fails =
-            |(s, row): &&(usize, RowId)| !self.side.follows(next[*s], self.expectations[*row as usize]);
-        match chosen.iter().find(fails) {
+        let fails = |(s, row): &&(usize, RowId)| {
+            !self.side.follows(next.double(*s), self.expectations[*row as usize])
+        };
+        match chosen.iter().filter(|(s, _)| next.fraction(*s).is_none()).find(fails) {
             Some(&(s, row)) => Err(self.rejection(next, s, row, step)),
             None => Ok(()),
         }
     }
 
-    fn check_all_choices(&self, next: &[f64], step: Option<u64>) -> Result<(), Rejection> {
+    fn check_all_choices(&self, next: &Bounds, step: Option<u64>) -> Result<(), Rejection> {
         let worst = Extremum::new(self.side, &self.expectations, self.rows.longest);
         let choices = self.rows.model.choices();
-        let fails = |s: &usize| !self.side.follows(next[*s], worst.of(choices.ranges(*s as StateId)));
+        let fails = |s: &usize| {
+            let double = next.fraction(*s).is_none();
+            double && !self.side.follows(next.double(*s), worst.of(choices.ranges(*s as StateId)))
+        };
         let Some(s) = self.task.moving.ones().find(fails) else { return Ok(()) };
-        let refutes = |row: &RowId| !self.side.follows(next[s], self.expectations[*row as usize]);
+        let refutes = |row: &RowId| !self.side.follows(next.double(s), self.expectations[*row as usize]);
         let row = choices.rows(s as StateId).find(refutes).unwrap_or_default();
         Err(self.rejection(next, s, row, step))
     }
 
-    fn rejection(&self, next: &[f64], s: usize, row: RowId, step: Option<u64>) -> Rejection {
+    fn rejection(&self, next: &Bounds, s: usize, row: RowId, step: Option<u64>) -> Rejection {
         let expectation = self.expectations[row as usize];
-        Rejection::Bound { step, state: s as StateId, side: self.side, bound: next[s], row, expectation }
+        Rejection::Bound {
+            step,
+            state: s as StateId,
+            side: self.side,
+            bound: next.double(s),
+            row,
+            expectation,
+        }
+    }
+
+    /// Checks the bounds that are fractions, which no rounded expectation can be compared with.
+    fn check_fractions(&self, next: &Bounds, choices: &[u32], step: Option<u64>) -> Result<(), Rejection> {
+        if next.fractions().next().is_none() {
+            return Ok(());
+        }
+        let exact = self.values.to_exact();
+        for (s, bound) in next.fractions() {
+            let of_state = self.rows.model.choices();
+            let rows: Vec<RowId> = match self.follows_policy {
+                true => of_state.row_of_choice(s as StateId, choices[s]).into_iter().collect(),
+                false => of_state.rows(s as StateId).collect(),
+            };
+            for row in rows {
+                let successors = self.rows.model.rows().row(row).successors;
+                let expectation = self.rows.get(row)?.expectation(successors, &exact, self.task.nature);
+                let follows = match self.side {
+                    Side::Lower => *bound <= expectation,
+                    Side::Upper => *bound >= expectation,
+                };
+                if !follows {
+                    return Err(self.rejection(next, s, row, step));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Computes the expectations of rows that are needed and not known for the present values.
@@ -160,7 +195,7 @@ impl<'a> SideProof<'a> {
         if stale.is_empty() {
             return Ok(());
         }
-        let exact = ExactValues::new(&self.values);
+        let exact = self.values.to_exact();
         let expectation = |&row: &RowId| {
             let successors = self.rows.model.rows().row(row).successors;
             let value = self.rows.get(row)?.expectation(successors, &exact, self.task.nature);

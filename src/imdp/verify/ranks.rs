@@ -1,6 +1,7 @@
 //! Whether the states with a positive lower bound are left almost surely.
 
 use super::Rejection;
+use super::bounds::Bounds;
 use super::one_step::ExactRows;
 use super::task::Task;
 use crate::exact::Nature;
@@ -15,14 +16,15 @@ use rayon::prelude::*;
 pub(super) fn check_ranks(
     rows: &ExactRows<'_>,
     task: &Task,
-    lower: &[f64],
+    lower: &Bounds,
     choices: &[u32],
     ranks: &[u32],
 ) -> Result<(), Rejection> {
-    let open = |s: usize| task.moving.contains(s) && lower[s] > 0.0;
+    let open = |s: usize| task.moving.contains(s) && lower.is_positive(s);
     let rank = |s: u32| if open(s as usize) { ranks[s as usize] } else { 0 };
     let of_choices = rows.model.choices();
-    let states = || (0..lower.len()).filter(|&s| open(s)).map(|s| s as StateId);
+    let states = || task.moving.ones().filter(|&s| open(s)).map(|s| s as StateId);
+    let values = lower.to_compare();
     let chosen = |s: StateId| of_choices.row_of_choice(s, choices[s as usize]);
     let used: Vec<RowId> = if task.policy_maximises {
         let mut set = StateSet::with_capacity(rows.model.rows().len());
@@ -37,7 +39,7 @@ pub(super) fn check_ranks(
         Ok(match task.nature {
             Nature::Min => exact.certain_rank(successors, rank),
             Nature::Max => {
-                let support = exact.maximal_support(successors, lower);
+                let support = exact.maximal_support(successors, &values);
                 let met = successors.iter().zip(support).filter(|(_, possible)| *possible);
                 met.map(|(&s, _)| u64::from(rank(s)) + 1).min().unwrap_or(u64::MAX)
             }

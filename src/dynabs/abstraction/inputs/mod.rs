@@ -11,9 +11,16 @@ use crate::noise::known::Distribution;
 use crate::partition::{CellId, CellKind};
 use crate::problem::InputProblem;
 use crate::system::{ImageError, Images, Lattice};
+use imdp::model::{MemoryError, require_memory};
 use imdp::property::{PathFormula, Property, Resolution, StateFormula};
 use std::time::{Duration, Instant};
 use tables::Tables;
+
+/// What is stored of a cell and an input while blocks of them are put together: position and number, twice.
+const BYTES_OF_PAIR: u64 = 12;
+
+/// What is stored of a cell: values on both sides, the best of a step, inputs chosen.
+const BYTES_OF_CELL: u64 = 64;
 
 /// A control problem whose actions are inputs, as a game on a lattice.
 #[derive(Clone, Debug)]
@@ -41,6 +48,9 @@ pub enum InputsError {
     /// The lattice or the list of images is too large.
     #[error("{0}\n  Use fewer cells or inputs, or a coarser /partition/resolution.")]
     Landing(#[from] LandingError),
+    /// The machine is too small.
+    #[error("{0}\n  Use fewer cells or inputs, or a coarser /partition/resolution.")]
+    Memory(#[from] MemoryError),
     /// No input is enabled in any cell.
     #[error(
         "no input is enabled in any cell: no input leaves room for the feedback\n  Use smaller cells, a smaller gain or a larger U."
@@ -84,6 +94,12 @@ impl InputAbstraction {
             Axis::new(cells, resolution[j] as usize, problem.periodic()[j], noise, extent[j])
         };
         let landing = Landing::new((0..grid.dimension()).map(axis).collect());
+        let pairs = ordinary.len() as u64 * inputs.len() as u64;
+        let cells = u64::from(grid.num_cells());
+        require_memory(
+            "the images of all cells and inputs",
+            BYTES_OF_PAIR * pairs + landing.bytes() + BYTES_OF_CELL * cells,
+        )?;
         let images = LandedImages::new(&tables, &ordinary, landing.axes())?;
         let open = images.acting();
         let aim = problem.objective().aim();

@@ -36,9 +36,7 @@ impl Graph {
         let mut known: HashMap<NodeId, NodeId> = HashMap::new();
         for id in self.below(root) {
             let new = self.replaced(id, replacements, &known);
-            if let (Some((text, column)), true) = (self.place(id), new != id) {
-                self.mark(new, text, column as usize);
-            }
+            self.mark_like(new, id);
             known.insert(id, new);
         }
         known[&root]

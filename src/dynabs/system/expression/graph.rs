@@ -88,6 +88,8 @@ pub struct Graph {
     nodes: Vec<Node>,
     numbers: HashMap<Node, NodeId>,
     enclosures: Vec<Interval>,
+    /// What the texts are called that nodes come from.
+    texts: Vec<String>,
     /// Where a node was first written: (which text, column).
     places: HashMap<NodeId, (u32, u32)>,
 }
@@ -120,14 +122,27 @@ impl Graph {
         self.enclosures[number as usize]
     }
 
+    /// Begins another text with this name; returns its number.
+    pub(super) fn begin_text(&mut self, name: &str) -> u32 {
+        self.texts.push(name.to_owned());
+        self.texts.len() as u32 - 1
+    }
+
     /// Remembers where a node was first written: in text number `text`, at a column from 1.
     pub(super) fn mark(&mut self, id: NodeId, text: u32, column: usize) {
         self.places.entry(id).or_insert((text, column as u32));
     }
 
-    /// Where a node was first written, as (number of the text, column from 1).
-    pub fn place(&self, id: NodeId) -> Option<(u32, u32)> {
-        self.places.get(&id).copied()
+    /// Gives a node the place of another one, which it was made from.
+    pub(super) fn mark_like(&mut self, id: NodeId, origin: NodeId) {
+        if let Some(&(text, column)) = self.places.get(&origin) {
+            self.mark(id, text, column as usize);
+        }
+    }
+
+    /// Where a node was first written: the name of the text, and the column from 1.
+    pub fn place(&self, id: NodeId) -> Option<(&str, u32)> {
+        self.places.get(&id).map(|&(text, column)| (self.texts[text as usize].as_str(), column))
     }
 
     fn add_node(&mut self, node: Node) -> NodeId {

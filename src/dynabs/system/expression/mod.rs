@@ -21,11 +21,12 @@ pub use tape::Tape;
 /// The most nodes that the expressions of one system may have.
 const MAX_NODES: usize = 50_000;
 
-/// Reads an expression; `number` is what [`Graph::place`] will call this text.
+/// Reads an expression; `name` is what [`Graph::place`] will call this text.
 ///
 /// # Errors
 /// [`ExpressionError`] with the column of the first mistake.
-pub fn parse(graph: &mut Graph, scope: &Scope, text: &str, number: u32) -> Result<NodeId, ExpressionError> {
+pub fn parse(graph: &mut Graph, scope: &Scope, text: &str, name: &str) -> Result<NodeId, ExpressionError> {
+    let number = graph.begin_text(name);
     let root = parser::parse(graph, scope, text, number)?;
     if graph.len() > MAX_NODES {
         let found = format!("expressions of {} operations in all", graph.len());

@@ -10,7 +10,7 @@ fn read(text: &str) -> Result<(Graph, NodeId), ExpressionError> {
         let variable = graph.variable(number as u32);
         scope.insert(name, variable).unwrap();
     }
-    let root = parse(&mut graph, &scope, text, 0)?;
+    let root = parse(&mut graph, &scope, text, "f")?;
     Ok((graph, root))
 }
 
@@ -127,7 +127,7 @@ fn what_is_undefined_has_a_place() {
     tape.on_box(&[Interval::new(-1.0, 2.0), Interval::new(0.0, 1.0), Interval::ZERO], &mut slots, &mut out);
     assert_eq!(out[0], Interval::EVERYTHING);
     let (node, operand) = tape.undefined(&graph, &slots).unwrap();
-    assert_eq!((graph.place(node), operand), (Some((0, 6)), Interval::new(-2.0, 2.0)));
+    assert_eq!((graph.place(node), operand), (Some(("f", 6)), Interval::new(-2.0, 2.0)));
 }
 
 #[test]

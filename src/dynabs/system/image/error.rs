@@ -6,13 +6,14 @@ use crate::system::expression::{Function, Node};
 /// The dynamics are not defined for every state of a cell.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "the next {state} is undefined for some states of the cell {cell}: found {found}; expected {expected}"
+    "{}the next {state} is undefined for some states of the cell {cell}: found {found}; expected {expected}",
+    where_it_is(place.as_ref())
 )]
 pub struct ImageError {
     /// The name of the state whose next value it is.
     pub state: String,
-    /// Which text of the model the operation is written in, and its column from 1, where that is known.
-    pub place: Option<(u32, u32)>,
+    /// The name of the text that the operation is written in, and its column from 1, where that is known.
+    pub place: Option<(String, u32)>,
     /// The cell, as a product of intervals.
     pub cell: String,
     /// What was found.
@@ -25,6 +26,10 @@ impl ImageError {
     /// What the user can do.
     pub const REMEDY: &'static str =
         "Keep the operand in its domain with max, min or clip, or leave such states out of the partition.";
+}
+
+fn where_it_is(place: Option<&(String, u32)>) -> String {
+    place.map_or(String::new(), |(text, column)| format!("{text} (column {column}): "))
 }
 
 /// What is wrong with an operation whose last operand may be anything in `operand`.

@@ -96,7 +96,14 @@ impl Images {
             centers: (0..axis.cells()).map(|i| Interval::of_rational(&axis.center(i))).collect(),
         });
         let faces = faces.collect();
-        Self { graph: builder.graph, states: mode.state_names().to_vec(), rows, row_of, lattice, faces }
+        Self {
+            graph: builder.graph,
+            states: mode.states().iter().map(|state| state.name.clone()).collect(),
+            rows,
+            row_of,
+            lattice,
+            faces,
+        }
     }
 
     /// The number of different rows.
@@ -153,7 +160,7 @@ impl Images {
             sides.iter().map(|side| format!("[{}, {}]", side.lower(), side.upper())).collect();
         ImageError {
             state: self.states[coordinate].clone(),
-            place: self.graph.place(undefined.node),
+            place: self.graph.place(undefined.node).map(|(text, column)| (text.to_owned(), column)),
             cell: sides.join("×"),
             found,
             expected,

@@ -4,7 +4,7 @@ use super::{ImageScratch, Images, Lattice, LatticeRange};
 use crate::linear_algebra::ExactMatrix;
 use crate::partition::Grid;
 use crate::system::expression::{Graph, Scope, parse};
-use crate::system::{Feedback, Interval, Mode};
+use crate::system::{Feedback, Interval, Mode, Variable};
 use imdp::numeric::{Rational, from_decimal, to_f64};
 use nalgebra::DMatrix;
 use proptest::prelude::*;
@@ -30,9 +30,14 @@ fn mode(texts: &[&str], inputs: usize, parameter: Interval) -> Mode {
         let variable = graph.variable(number as u32);
         scope.insert(&name, variable).unwrap();
     }
-    let next = texts.iter().zip(0..).map(|(text, i)| parse(&mut graph, &scope, text, i).unwrap()).collect();
-    let names = (1..=texts.len()).map(|k| format!("x{k}")).collect();
-    Mode::new(graph, next, names, inputs, vec![parameter])
+    let next = texts.iter().map(|text| parse(&mut graph, &scope, text, text).unwrap()).collect();
+    Mode::new(
+        graph,
+        next,
+        Variable::numbered("x", texts.len()),
+        Variable::numbered("u", inputs),
+        vec![parameter],
+    )
 }
 
 fn images(mode: &Mode, feedback: &Feedback, grid: &Grid, noisy: bool, inputs: &[Vec<f64>]) -> Images {
@@ -133,7 +138,7 @@ fn undefined_dynamics_name_the_operation() {
     let mode = mode(&["x1 + 1/x1"], 0, Interval::ZERO);
     let images = images(&mode, &Feedback::none(0, &grid), &grid, false, &[vec![]]);
     let error = images.range(0, &[2], &mut ImageScratch::default()).unwrap_err();
-    assert_eq!(error.place, Some((0, 7)));
+    assert_eq!(error.place, Some(("x1 + 1/x1".to_owned(), 7)));
     assert!(error.to_string().contains("a division by"), "{error}");
     assert!(images.range(0, &[4], &mut ImageScratch::default()).is_ok());
 }

@@ -1,8 +1,7 @@
 //! Writing bmdp-tool's format.
 
 use super::REACH;
-use crate::model::{IntervalMdp, RowId, StateId};
-use crate::numeric::shortest_decimal;
+use crate::model::{End, IntervalMdp, RowId, StateId};
 use crate::progress::Progress;
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -67,8 +66,8 @@ impl<'a> BmdpWriter<'a> {
             let _ = writeln!(text, "{state} {action} {state} 1 1");
             return;
         };
-        for ((successor, &lower), &upper) in row.successors.iter().zip(row.lower).zip(row.upper) {
-            let [lower, upper] = [lower, upper].map(shortest_decimal);
+        for (i, successor) in row.successors.iter().enumerate() {
+            let [lower, upper] = [End::Lower, End::Upper].map(|end| row.text(end, i));
             let _ = writeln!(text, "{state} {action} {successor} {lower} {upper}");
         }
     }

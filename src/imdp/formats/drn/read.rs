@@ -191,10 +191,10 @@ impl Body<'_> {
         cursor.skip_blanks();
         cursor.expect(b':', "` : ` and an interval")?;
         cursor.skip_blanks();
-        let (lower, upper) = read_any_interval(cursor, &mut self.written)?;
+        let interval = read_any_interval(cursor, &mut self.written)?;
         self.written.push(b'\n');
         self.lines_of_row.push(line);
-        self.row.push(successor as StateId, lower, upper);
+        self.row.push(successor as StateId, interval);
         end_of_line(cursor, "the end of the line")
     }
 
@@ -218,7 +218,7 @@ impl Body<'_> {
                 Fault::new(line, 1, RowFault::ONCE, describe(successor.to_string().as_bytes()))
             }
         })?;
-        if judgement == Judgement::Widened {
+        if judgement != Judgement::FINE {
             self.widened.get_or_insert((0, choice.line + 1)).0 += 1;
         }
         self.row.clear();

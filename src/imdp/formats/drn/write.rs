@@ -3,8 +3,7 @@
 use super::UNNAMED;
 use crate::files::interruption;
 use crate::formats::names::{NameError, NameRule, is_identifier};
-use crate::model::{ActionNames, IntervalMdp, ModelKind, RowId, StateId, StateSet};
-use crate::numeric::shortest_decimal;
+use crate::model::{ActionNames, End, IntervalMdp, ModelKind, RowId, StateId, StateSet};
 use crate::progress::Progress;
 use std::convert::Infallible;
 use std::fmt::Write as _;
@@ -49,9 +48,9 @@ impl RowTexts {
     fn render(model: &IntervalMdp) -> Self {
         let mut texts = Self { text: vec![], ends: vec![] };
         for row in model.rows().iter() {
-            for ((successor, &lower), &upper) in row.successors.iter().zip(row.lower).zip(row.upper) {
-                let line =
-                    format!("\t\t{successor} : [{}, {}]\n", shortest_decimal(lower), shortest_decimal(upper));
+            for (i, successor) in row.successors.iter().enumerate() {
+                let (lower, upper) = (row.text(End::Lower, i), row.text(End::Upper, i));
+                let line = format!("\t\t{successor} : [{lower}, {upper}]\n");
                 texts.text.extend_from_slice(line.as_bytes());
             }
             texts.ends.push(texts.text.len());

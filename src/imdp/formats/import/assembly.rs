@@ -18,7 +18,7 @@ const SMALL: u64 = 1 << 16;
 
 /// The transitions of a model.
 #[derive(Debug)]
-pub(in crate::formats) struct Transitions {
+pub(crate) struct Transitions {
     pub rows: Rows,
     pub choices: Choices,
     pub actions: ActionNames,
@@ -43,7 +43,7 @@ impl Transitions {
 
 /// How large a model is going to be, as far as a file has said so far.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::formats) struct Expected {
+pub(crate) struct Expected {
     pub states: u64,
     pub choices: u64,
     /// No more than this many transitions come.
@@ -52,7 +52,7 @@ pub(in crate::formats) struct Expected {
 
 /// Collects the choices of states in order and shares equal rows.
 #[derive(Debug)]
-pub(in crate::formats) struct Assembly {
+pub(crate) struct Assembly {
     expected: Expected,
     rows: Rows,
     /// Entries that fit into `rows` without asking again.
@@ -72,7 +72,7 @@ pub(in crate::formats) struct Assembly {
 
 /// Why a choice cannot be added.
 #[derive(Debug)]
-pub(in crate::formats) enum AssemblyError {
+pub(crate) enum AssemblyError {
     /// It does not fit into memory.
     Memory(MemoryError),
     /// There are more rows than [`RowId`] can number.
@@ -145,13 +145,13 @@ impl Assembly {
         } else if self.stays {
             // It has company, so it is a choice like any other.
             self.stays = false;
-            let itself = Row { successors: &[state], lower: &[1.0], upper: &[1.0] };
+            let itself = Row { successors: &[state], lower: &[1.0], upper: &[1.0], exact: &[] };
             self.share(hash_row(itself), itself)?;
         }
         self.push_action(action);
         self.num_choices += 1;
         self.num_transitions += row.len() as u64;
-        if is_first && row.successors == [state] && row.lower == [1.0] {
+        if is_first && row.successors == [state] && row.lower == [1.0] && row.exact.is_empty() {
             self.stays = true;
             return Ok(());
         }

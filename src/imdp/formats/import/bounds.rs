@@ -3,23 +3,37 @@
 use std::cmp::Ordering;
 
 use super::exact_sum::ExactSum;
+use crate::model::End;
 use crate::numeric::{round_decimal_down, round_decimal_up, rounding_factor};
 
 /// Covers the roundings of a scaled bound, with room to spare below the 15 digits it is rounded to.
 const SCALING_MARGIN: f64 = 4e-15;
 
 /// What [`judge`] did to the bounds.
-#[derive(Debug, PartialEq)]
-pub(in crate::formats) enum Judgement {
-    /// Nothing: they admit a distribution.
-    Fine,
-    /// They missed 1 by at most 10⁻⁹ and now contain what was written and a distribution.
-    Widened,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Judgement {
+    /// The lower bounds exceeded 1 by at most 10⁻⁹ and now contain what was written and a distribution.
+    pub lowered: bool,
+    /// The upper bounds missed 1 by at most 10⁻⁹ and now contain what was written and a distribution.
+    pub raised: bool,
+}
+
+impl Judgement {
+    /// They admit a distribution as they are.
+    pub(crate) const FINE: Self = Self { lowered: false, raised: false };
+
+    /// Whether bounds were changed at one end.
+    pub(crate) fn changed(self, end: End) -> bool {
+        match end {
+            End::Lower => self.lowered,
+            End::Upper => self.raised,
+        }
+    }
 }
 
 /// Bounds that admit no distribution.
 #[derive(Debug, PartialEq)]
-pub(in crate::formats) struct NoDistribution {
+pub(crate) struct NoDistribution {
     /// What the sum should be.
     pub expected: &'static str,
     /// What it is.
@@ -30,7 +44,7 @@ pub(in crate::formats) struct NoDistribution {
 ///
 /// Reading and adding err by less than `len` roundings each.
 #[inline]
-pub(in crate::formats) fn is_clear(len: usize, lower_sum: f64, upper_sum: f64) -> bool {
+pub(crate) fn is_clear(len: usize, lower_sum: f64, upper_sum: f64) -> bool {
     let allowance = rounding_factor(2 * len);
     lower_sum <= 1.0 - allowance && upper_sum >= 1.0 + allowance
 }
@@ -38,7 +52,7 @@ pub(in crate::formats) fn is_clear(len: usize, lower_sum: f64, upper_sum: f64) -
 /// Sums the written bounds of one choice exactly and widens them where they miss 1 by at most 10⁻⁹.
 ///
 /// `written` gives the texts of the bounds, any number of times.
-pub(in crate::formats) fn judge<'t, 'b, I: Iterator<Item = (&'t [u8], &'t [u8])>>(
+pub(crate) fn judge<'t, 'b, I: Iterator<Item = (&'t [u8], &'t [u8])>>(
     written: impl Fn() -> I,
     bounds: impl Iterator<Item = (&'b mut f64, &'b mut f64)>,
 ) -> Result<Judgement, NoDistribution> {
@@ -56,10 +70,7 @@ pub(in crate::formats) fn judge<'t, 'b, I: Iterator<Item = (&'t [u8], &'t [u8])>
         let expected = "upper bounds of one choice that sum to at least 1";
         return Err(NoDistribution { expected, sum: upper.to_text() });
     }
-    if !lower_misses && !upper_misses {
-        return Ok(Judgement::Fine);
-    }
-    for (lower_bound, upper_bound) in bounds {
+    for (lower_bound, upper_bound) in bounds.filter(|_| lower_misses || upper_misses) {
         if lower_misses && *lower_bound > 0.0 {
             let scaled = *lower_bound * (1.0 - lower.distance_from_one() - SCALING_MARGIN);
             *lower_bound = round_decimal_down(scaled, 15);
@@ -69,13 +80,13 @@ pub(in crate::formats) fn judge<'t, 'b, I: Iterator<Item = (&'t [u8], &'t [u8])>
             *upper_bound = round_decimal_up(scaled, 15).min(1.0);
         }
     }
-    Ok(Judgement::Widened)
+    Ok(Judgement { lowered: lower_misses, raised: upper_misses })
 }
 
 /// The two bounds in the text of an interval that has been parsed before, blanks around them aside.
 ///
 /// A plain number is both.
-pub(in crate::formats) fn written_bounds(interval: &[u8]) -> Option<(&[u8], &[u8])> {
+pub(crate) fn written_bounds(interval: &[u8]) -> Option<(&[u8], &[u8])> {
     let Some(inside) = interval.strip_prefix(b"[").and_then(|rest| rest.strip_suffix(b"]")) else {
         return Some((interval, interval));
     };
@@ -98,7 +109,7 @@ mod tests {
         let lines = "[0.5000000003,0.6]\n[0.5000000004, 0.6]";
         let (mut lower, mut upper) = ([0.5000000003, 0.5000000004], [0.6, 0.6]);
         let original = lower;
-        assert_eq!(judged(lines, &mut lower, &mut upper), Ok(Judgement::Widened));
+        assert_eq!(judged(lines, &mut lower, &mut upper), Ok(Judgement { lowered: true, raised: false }));
         for reading in [from_decimal, from_dyadic] {
             let sum: Rational = lower.iter().map(|&x| reading(x).unwrap()).sum();
             assert!(sum <= from_decimal(1.0).unwrap(), "{sum}");
@@ -110,7 +121,7 @@ mod tests {
 
         let lines = "0.3333333333\n0.3333333333\n0.3333333333";
         let (mut lower, mut upper) = ([0.3333333333; 3], [0.3333333333; 3]);
-        assert_eq!(judged(lines, &mut lower, &mut upper), Ok(Judgement::Widened));
+        assert_eq!(judged(lines, &mut lower, &mut upper), Ok(Judgement { lowered: false, raised: true }));
         assert_eq!(lower, [0.3333333333; 3]);
         for reading in [from_decimal, from_dyadic] {
             let sum: Rational = upper.iter().map(|&x| reading(x).unwrap()).sum();
@@ -121,7 +132,7 @@ mod tests {
     #[test]
     fn the_decimals_decide() {
         let exact = "0.1\n0.2\n0.7";
-        assert_eq!(judged(exact, &mut [0.1, 0.2, 0.7], &mut [0.1, 0.2, 0.7]), Ok(Judgement::Fine));
+        assert_eq!(judged(exact, &mut [0.1, 0.2, 0.7], &mut [0.1, 0.2, 0.7]), Ok(Judgement::FINE));
         let above = "[0.5,1]\n[0.50000000100000000000001,1]";
         assert_eq!(judged(above, &mut [0.5; 2], &mut [1.0; 2]).unwrap_err().sum, "1.00000000100000000000001");
     }

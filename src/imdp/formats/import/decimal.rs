@@ -14,12 +14,24 @@ const POWERS: [f64; 23] = [
     1e19, 1e20, 1e21, 1e22,
 ];
 
-/// Reads a decimal in `[0, 1]` and returns the double nearest to it: `0.25`, `1`, `2.5e-7`.
+/// Any two numbers of so few digits have different doubles, so each of them is the shortest decimal of its double.
+const FEW_DIGITS: u64 = 1_000_000_000_000_000;
+
+/// A number that was read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Decimal {
+    /// The double nearest to it.
+    pub value: f64,
+    /// Whether it is certainly the shortest decimal of that double; if not, [`Exact`](crate::numeric::Exact) looks.
+    pub shortest: bool,
+}
+
+/// Reads a decimal in `[0, 1]`: `0.25`, `1`, `2.5e-7`.
 ///
 /// # Errors
 /// A sign, `NaN`, more than 1 as written, or a positive number that no double can tell from 0.
 #[inline]
-pub(in crate::formats) fn read_decimal(cursor: &mut Cursor<'_>) -> Result<f64, Box<Fault>> {
+pub(crate) fn read_decimal(cursor: &mut Cursor<'_>) -> Result<Decimal, Box<Fault>> {
     let text = cursor.rest();
     let mut at = 0;
     let mut mantissa = 0u64;
@@ -54,14 +66,14 @@ pub(in crate::formats) fn read_decimal(cursor: &mut Cursor<'_>) -> Result<f64, B
             return Err(cursor.fault_here("a probability of at most 1"));
         }
         cursor.advance(at);
-        return Ok(value);
+        return Ok(Decimal { value, shortest: mantissa < FEW_DIGITS });
     }
     read_long_decimal(cursor, at)
 }
 
 /// Reads a decimal that has an exponent or many digits; its mantissa ends at `at`.
 #[cold]
-fn read_long_decimal(cursor: &mut Cursor<'_>, mut at: usize) -> Result<f64, Box<Fault>> {
+fn read_long_decimal(cursor: &mut Cursor<'_>, mut at: usize) -> Result<Decimal, Box<Fault>> {
     let text = cursor.rest();
     let is_zero = !text[..at].iter().any(|byte| matches!(byte, b'1'..=b'9'));
     if matches!(text.get(at), Some(b'e' | b'E')) {
@@ -86,7 +98,7 @@ fn read_long_decimal(cursor: &mut Cursor<'_>, mut at: usize) -> Result<f64, Box<
         return Err(cursor.fault_here("a probability of at most 1"));
     }
     cursor.advance(at);
-    Ok(value)
+    Ok(Decimal { value, shortest: false })
 }
 
 #[cold]
@@ -100,10 +112,12 @@ fn not_a_probability(cursor: &Cursor<'_>) -> Box<Fault> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numeric::Exact;
     use proptest::prelude::*;
 
     fn read(text: &str) -> Result<f64, String> {
-        read_decimal(&mut Cursor::new(text.as_bytes(), 0)).map_err(|fault| fault.expected)
+        let read = read_decimal(&mut Cursor::new(text.as_bytes(), 0));
+        read.map(|decimal| decimal.value).map_err(|fault| fault.expected)
     }
 
     #[test]
@@ -132,6 +146,8 @@ mod tests {
         fn the_nearest_double_is_read(value in 0.0f64..=1.0, digits in 0usize..25) {
             for text in [format!("{value:.digits$}"), format!("{value:e}"), format!("{value}")] {
                 prop_assert_eq!(read(&text), Ok(text.parse().unwrap()));
+                let decimal = read_decimal(&mut Cursor::new(text.as_bytes(), 0)).unwrap();
+                prop_assert!(!decimal.shortest || Exact::of(text.as_bytes(), decimal.value).is_none());
             }
         }
     }

@@ -37,12 +37,12 @@ pub enum Place {
 
 impl Position {
     /// A place in a text file.
-    pub(in crate::formats) fn text(path: &Path, line: u64, column: u32) -> Self {
+    pub(crate) fn text(path: &Path, line: u64, column: u32) -> Self {
         Self { path: path.to_owned(), place: Place::Text { line, column } }
     }
 
     /// A place in an archive.
-    pub(in crate::formats) fn member(path: &Path, name: &str, entry: Option<u64>) -> Self {
+    pub(crate) fn member(path: &Path, name: &str, entry: Option<u64>) -> Self {
         Self { path: path.to_owned(), place: Place::Member { name: name.to_owned(), entry } }
     }
 
@@ -55,11 +55,7 @@ impl Position {
     }
 
     /// The error of finding one thing here where another should be.
-    pub(in crate::formats) fn refuse(
-        self,
-        expected: impl Into<String>,
-        found: impl Into<String>,
-    ) -> ImportError {
+    pub(crate) fn refuse(self, expected: impl Into<String>, found: impl Into<String>) -> ImportError {
         ImportError::Refused { at: self, expected: expected.into(), found: found.into() }
     }
 }
@@ -136,7 +132,7 @@ impl ImportError {
     }
 
     /// Wraps an error of the system about a file.
-    pub(in crate::formats) fn io(path: &Path, source: std::io::Error) -> Self {
+    pub(crate) fn io(path: &Path, source: std::io::Error) -> Self {
         Self::Io { path: path.to_owned(), source }
     }
 }
@@ -227,7 +223,7 @@ impl fmt::Display for Warning {
 
 /// A refusal within one file, or within one chunk of it: lines count from the start of that part.
 #[derive(Debug)]
-pub(in crate::formats) struct Fault {
+pub(crate) struct Fault {
     /// The line, from 0.
     pub line: u64,
     /// The column, from 1.

@@ -10,7 +10,7 @@ const LIMB: u128 = 10u128.pow(DIGITS as u32);
 ///
 /// `limbs[j]` counts units of `10^(−18 (j + 1))`; carries are settled once, at the end.
 #[derive(Clone, Debug, Default)]
-pub(in crate::formats) struct ExactSum {
+pub(crate) struct ExactSum {
     whole: u128,
     limbs: Vec<u128>,
 }

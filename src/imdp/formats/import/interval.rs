@@ -1,23 +1,38 @@
 //! Intervals as they are written.
 
-use super::decimal::read_decimal;
+use super::decimal::{Decimal, read_decimal};
 use super::error::Fault;
 use super::exact_sum::ExactSum;
 use super::text::Cursor;
 use super::written::read_written_interval;
+
+/// Bounds that were read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Interval {
+    /// The double nearest to the lower bound.
+    pub lower: f64,
+    /// The double nearest to the upper bound.
+    pub upper: f64,
+    /// Whether both bounds are certainly the shortest decimals of their doubles.
+    pub shortest: bool,
+}
+
+impl Interval {
+    /// Bounds given as doubles, which stand for their shortest decimals.
+    pub(crate) fn of_doubles(lower: f64, upper: f64) -> Self {
+        Self { lower, upper, shortest: true }
+    }
+}
 
 /// Reads `[lower,upper]`, or a plain number that is both bounds; `blank` may follow the comma.
 ///
 /// # Errors
 /// Those of [`read_decimal`], and an upper bound below the lower one.
 #[inline]
-pub(in crate::formats) fn read_interval(
-    cursor: &mut Cursor<'_>,
-    blank: &[u8],
-) -> Result<(f64, f64), Box<Fault>> {
+pub(crate) fn read_interval(cursor: &mut Cursor<'_>, blank: &[u8]) -> Result<Interval, Box<Fault>> {
     if cursor.peek() != b'[' {
-        let probability = read_decimal(cursor)?;
-        return Ok((probability, probability));
+        let Decimal { value, shortest } = read_decimal(cursor)?;
+        return Ok(Interval { lower: value, upper: value, shortest });
     }
     cursor.advance(1);
     let lower_at = cursor.offset();
@@ -29,12 +44,14 @@ pub(in crate::formats) fn read_interval(
     let upper = read_decimal(cursor)?;
     let upper_text = cursor.since(upper_at);
     // Bounds that differ by less than a double can tell are compared as written.
-    if lower > upper || (lower == upper && lower_text != upper_text && exceeds(lower_text, upper_text)) {
+    if lower.value > upper.value
+        || (lower.value == upper.value && lower_text != upper_text && exceeds(lower_text, upper_text))
+    {
         let expected = format!("an upper bound of at least {}", lower_text.escape_ascii());
         return Err(cursor.fault_at(upper_at, expected));
     }
     cursor.expect(b']', "`]`")?;
-    Ok((lower, upper))
+    Ok(Interval { lower: lower.value, upper: upper.value, shortest: lower.shortest && upper.shortest })
 }
 
 /// Reads an interval or a number in any layout that [`read_written_interval`] knows, and appends it to `written` in the one
@@ -42,7 +59,7 @@ pub(in crate::formats) fn read_interval(
 pub(in crate::formats) fn read_any_interval(
     cursor: &mut Cursor<'_>,
     written: &mut Vec<u8>,
-) -> Result<(f64, f64), Box<Fault>> {
+) -> Result<Interval, Box<Fault>> {
     let start = cursor.offset();
     let strict = read_interval(cursor, b" ");
     if matches!(cursor.peek(), b' ' | b'\t' | b'\r' | b'\n') && strict.is_ok() {

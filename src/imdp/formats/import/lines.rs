@@ -11,7 +11,7 @@ const LONGEST_LINE: u64 = 16 << 20;
 
 /// The lines of a file.
 #[derive(Debug)]
-pub(in crate::formats) struct Lines<'a, R> {
+pub(crate) struct Lines<'a, R> {
     path: &'a Path,
     source: R,
     buffer: Vec<u8>,

@@ -4,7 +4,7 @@ use super::assembly::{Assembly, AssemblyError, Expected, Transitions};
 use super::bounds::{Judgement, written_bounds};
 use super::error::{Fault, ImportError, Position, Warning};
 use super::fields::Fields;
-use super::interval::read_any_interval;
+use super::interval::{Interval, read_any_interval};
 use super::pending_row::{PendingRow, RowFault};
 use super::row_table::hash_row;
 use super::text::{Cursor, counted, describe};
@@ -39,7 +39,7 @@ struct Line {
     state: StateId,
     choice: u64,
     successor: StateId,
-    bounds: (f64, f64),
+    bounds: Interval,
     /// Where the bounds are in the text, as `read_interval` wants them.
     text: (u32, u32),
     action: u32,
@@ -147,7 +147,7 @@ impl LooseTransitions {
             }
             row.clear();
             rows.clear();
-            choice.iter().for_each(|line| row.push(line.successor, line.bounds.0, line.bounds.1));
+            choice.iter().for_each(|line| row.push(line.successor, line.bounds));
             let written = || {
                 let texts = choice.iter().map(|line| &self.text[line.text.0 as usize..line.text.1 as usize]);
                 texts.filter_map(written_bounds)
@@ -159,7 +159,7 @@ impl LooseTransitions {
                     fault(line, RowFault::ONCE.into(), describe(successor.to_string().as_bytes()))
                 }
             })?;
-            if judgement == Judgement::Widened {
+            if judgement != Judgement::FINE {
                 widened.get_or_insert((0, first.number + 1)).0 += 1;
             }
             let action = self.names.get(first.action as usize).map(|name| assembly.action(name));

@@ -18,12 +18,12 @@ mod text;
 mod variables;
 mod written;
 
-pub(in crate::formats) use assembly::{Assembly, AssemblyError, Expected, Transitions};
-pub(in crate::formats) use bounds::{Judgement, written_bounds};
-pub(in crate::formats) use error::Fault;
+pub(crate) use assembly::{Assembly, AssemblyError, Expected, Transitions};
+pub(crate) use bounds::{Judgement, written_bounds};
+pub(crate) use error::Fault;
 pub use error::{ImportError, Place, Position, Warning};
 pub(in crate::formats) use fields::Fields;
-pub(in crate::formats) use interval::{read_any_interval, read_interval};
+pub(in crate::formats) use interval::{Interval, read_any_interval, read_interval};
 pub(in crate::formats) use lines::Lines;
 pub(in crate::formats) use loose::{LooseTransitions, TransitionHeader};
 pub(in crate::formats) use pending_row::{PendingRow, RowFault};

@@ -1,7 +1,9 @@
 //! The row of the choice that is being read.
 
 use super::bounds::{self, Judgement, NoDistribution};
-use crate::model::{Rows, StateId};
+use super::interval::Interval;
+use crate::model::{End, Rows, StateId};
+use crate::numeric::Exact;
 
 #[derive(Clone, Copy, Debug)]
 struct Entry {
@@ -14,9 +16,11 @@ struct Entry {
 
 /// Collects the transitions of one choice, in any order.
 #[derive(Debug, Default)]
-pub(in crate::formats) struct PendingRow {
+pub(crate) struct PendingRow {
     entries: Vec<Entry>,
     ascending: bool,
+    /// Whether all bounds are the shortest decimals of their doubles.
+    shortest: bool,
     lower_sum: f64,
     upper_sum: f64,
 }
@@ -25,7 +29,7 @@ impl PendingRow {
     /// Forgets the transitions.
     pub(crate) fn clear(&mut self) {
         self.entries.clear();
-        (self.ascending, self.lower_sum, self.upper_sum) = (true, 0.0, 0.0);
+        (self.ascending, self.shortest, self.lower_sum, self.upper_sum) = (true, true, 0.0, 0.0);
     }
 
     /// Whether there is no transition.
@@ -35,7 +39,9 @@ impl PendingRow {
 
     /// Adds a transition.
     #[inline]
-    pub(crate) fn push(&mut self, successor: StateId, lower: f64, upper: f64) {
+    pub(crate) fn push(&mut self, successor: StateId, interval: Interval) {
+        let Interval { lower, upper, shortest } = interval;
+        self.shortest &= shortest;
         self.ascending &= self.entries.last().is_none_or(|last| last.successor < successor);
         self.entries.push(Entry { successor, nth: self.entries.len() as u32, lower, upper });
         self.lower_sum += lower;
@@ -58,7 +64,8 @@ impl PendingRow {
 
     /// Checks the transitions together and appends them to `rows`.
     ///
-    /// `written` gives the texts of the bounds; they decide unless the sums are clear.
+    /// `written` gives the texts of the bounds; they decide unless the sums are clear, and bounds that are not the
+    /// shortest decimals of their doubles are what they say.
     pub(crate) fn finish<'t, I: Iterator<Item = (&'t [u8], &'t [u8])>>(
         &mut self,
         written: impl Fn() -> I,
@@ -67,13 +74,21 @@ impl PendingRow {
         if !self.ascending {
             self.sort()?;
         }
-        let mut judgement = Judgement::Fine;
+        let mut judgement = Judgement::FINE;
         if !self.is_clear() {
             let bounds = self.entries.iter_mut().map(|entry| (&mut entry.lower, &mut entry.upper));
-            judgement = bounds::judge(written, bounds).map_err(RowFault::NoDistribution)?;
+            judgement = bounds::judge(&written, bounds).map_err(RowFault::NoDistribution)?;
         }
+        // A row is read once, so this is no loss where all is shortest.
+        let texts: Vec<_> = if self.shortest { vec![] } else { written().collect() };
         for entry in &self.entries {
             rows.push_entry(entry.successor, entry.lower, entry.upper);
+            if let Some(&(lower, upper)) = texts.get(entry.nth as usize) {
+                let bounds = [(End::Lower, lower, entry.lower), (End::Upper, upper, entry.upper)];
+                for (end, text, nearest) in bounds.into_iter().filter(|bound| !judgement.changed(bound.0)) {
+                    Exact::of(text, nearest).into_iter().for_each(|exact| rows.set_exact(end, exact));
+                }
+            }
         }
         rows.finish_row();
         Ok(judgement)
@@ -92,7 +107,7 @@ impl PendingRow {
 
 /// What makes transitions not a row.
 #[derive(Debug)]
-pub(in crate::formats) enum RowFault {
+pub(crate) enum RowFault {
     /// A destination is listed a second time.
     Twice {
         /// The destination.

@@ -8,7 +8,7 @@ use crate::model::{Row, RowId, Rows};
 ///
 /// A slot is a hash and a row id, 9 bytes; the content stays in [`Rows`] and decides in the end.
 #[derive(Debug, Default)]
-pub(in crate::formats) struct RowTable {
+pub(crate) struct RowTable {
     slots: HashTable<(u32, RowId)>,
 }
 
@@ -33,7 +33,7 @@ fn spread(hash: u32) -> u64 {
 const MULTIPLIER: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// A hash of the content of a row.
-pub(in crate::formats) fn hash_row(row: Row<'_>) -> u32 {
+pub(crate) fn hash_row(row: Row<'_>) -> u32 {
     let mut hash = row.len() as u64;
     for ((&successor, lower), upper) in row.successors.iter().zip(row.lower).zip(row.upper) {
         let word = lower.to_bits().rotate_left(23) ^ upper.to_bits().wrapping_mul(MULTIPLIER);

@@ -6,7 +6,7 @@ use super::error::Fault;
 const SHOWN: usize = 40;
 
 /// A reader of a text whose lines all end in `\n`, one element at a time.
-pub(in crate::formats) struct Cursor<'a> {
+pub(crate) struct Cursor<'a> {
     text: &'a [u8],
     at: usize,
     line_start: usize,
@@ -169,7 +169,7 @@ impl<'a> Cursor<'a> {
 }
 
 /// What an error message calls the token that `text` starts with.
-pub(in crate::formats) fn describe(text: &[u8]) -> String {
+pub(crate) fn describe(text: &[u8]) -> String {
     let blank = |byte: &u8| matches!(byte, b' ' | b'\n' | b'\r' | b',' | b']');
     match text.first() {
         None | Some(b'\n' | b'\r') => return "the end of the line".to_owned(),
@@ -182,6 +182,6 @@ pub(in crate::formats) fn describe(text: &[u8]) -> String {
 }
 
 /// A number for messages and its noun, in the plural unless it is 1.
-pub(in crate::formats) fn counted(count: u64, noun: &str) -> String {
+pub(crate) fn counted(count: u64, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }

@@ -7,7 +7,7 @@ use crate::model::{StateSet, VariableValues};
 /// Reads the value of a variable in a state and appends it to the variable's column.
 ///
 /// Values come state by state; the first one decides what the variable is. A new column has room for `room` states.
-pub(in crate::formats) fn read_variable_value(
+pub(crate) fn read_variable_value(
     cursor: &mut Cursor<'_>,
     state: usize,
     variable: usize,

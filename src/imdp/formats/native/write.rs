@@ -26,8 +26,13 @@ pub fn write_file(model: &IntervalMdp, path: &Path) -> io::Result<()> {
 /// Writes are small: give it a buffered writer.
 ///
 /// # Errors
-/// Those of the writer.
+/// Those of the writer, and `InvalidInput` for a model with bounds that are not the shortest decimals of doubles: this
+/// format has nothing else.
 pub fn write(model: &IntervalMdp, out: &mut impl Write) -> io::Result<()> {
+    if let Some(row) = model.rows().inexact_rows().next() {
+        let problem = format!("row {row} has a bound that is not the shortest decimal of a double");
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
+    }
     let mut out = Hashing { out, hash: Sha256::new() };
     out.write_all(&MAGIC)?;
     out.write_all(&VERSION.to_le_bytes())?;

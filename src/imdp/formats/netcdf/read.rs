@@ -2,8 +2,8 @@
 
 use super::specification::Specification;
 use crate::formats::import::{
-    Assembly, AssemblyError, Expected, ImportError, Imported, Judgement, PendingRow, Position, RowFault,
-    Warning, hash_row,
+    Assembly, AssemblyError, Expected, ImportError, Imported, Interval, Judgement, PendingRow, Position,
+    RowFault, Warning, hash_row,
 };
 use crate::model::{ModelKind, Rows, StateId, StateSet, StateVariables, require_memory};
 use crate::numeric::shortest_decimal;
@@ -203,7 +203,10 @@ impl Reader<'_> {
                         return Err(at().refuse(expected, upper_bound.to_string()));
                     }
                     // There is a negative zero.
-                    row.push(successor as StateId, lower_bound + 0.0, upper_bound + 0.0);
+                    row.push(
+                        successor as StateId,
+                        Interval::of_doubles(lower_bound + 0.0, upper_bound + 0.0),
+                    );
                 }
                 if let Some((successor, _)) = below.next() {
                     let expected = format!(
@@ -227,7 +230,7 @@ impl Reader<'_> {
                     }
                     RowFault::NoDistribution(fault) => at().refuse(fault.expected, fault.sum),
                 })?;
-                if judgement == Judgement::Widened {
+                if judgement != Judgement::FINE {
                     widened.get_or_insert((0, at())).0 += 1;
                 }
                 let content = rows.row(0);

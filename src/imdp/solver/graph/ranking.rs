@@ -3,7 +3,7 @@
 use super::super::query::{Direction, Players};
 use super::choice_tree::ChoiceTree;
 use super::zero_one::Analysis;
-use crate::exact::maximal_support;
+use crate::exact::{ExactValues, Replaced, maximal_support};
 use crate::model::{ChoicesBuilder, IntervalMdp, RowRange, Rows, StateId, StateSet};
 
 /// A rank for every moving state with `L > 0`, as [`crate::verify`] wants it.
@@ -17,6 +17,7 @@ pub(in crate::solver) fn ranks(
     moving: &StateSet,
     players: Players,
     lower: &[f64],
+    exact: &Replaced,
     choices: &[u32],
 ) -> Vec<(StateId, u32)> {
     let mut outside = StateSet::with_capacity(lower.len());
@@ -34,7 +35,8 @@ pub(in crate::solver) fn ranks(
             ChoiceTree::new(model.rows().len(), &chosen.finish(), open)
         }
     };
-    let supports = (players.nature == Direction::Max).then(|| maximal_supports(model.rows(), lower));
+    let lower = ExactValues::to_compare(lower, exact);
+    let supports = (players.nature == Direction::Max).then(|| maximal_supports(model.rows(), &lower));
     // Of a support, every distribution is taken to give all of it positive probability.
     let players = Players { nature: Direction::Min, ..players };
     let rows = supports.as_ref().unwrap_or(model.rows());
@@ -49,7 +51,7 @@ pub(in crate::solver) fn ranks(
 }
 
 /// The rows reduced to what optimal distributions of a maximising nature may use, with bounds above 0.
-fn maximal_supports(rows: &Rows, lower: &[f64]) -> Rows {
+fn maximal_supports(rows: &Rows, lower: &ExactValues<'_>) -> Rows {
     let mut supports = Rows::with_capacity(rows.len(), rows.num_entries());
     for row in rows.iter() {
         let support = maximal_support(row, lower).unwrap_or_default();

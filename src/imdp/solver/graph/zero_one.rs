@@ -13,7 +13,7 @@ use super::super::policy::{NO_CHOICE, first_choice};
 use super::super::query::{Direction, Players};
 use super::choice_tree::ChoiceTree;
 use super::decide::{compare_with_one, lower_covers_one, margin, upper_covers_one};
-use crate::model::{IntervalMdp, Row, RowId, Rows, StateId, StateSet};
+use crate::model::{End, IntervalMdp, Row, RowId, Rows, StateId, StateSet};
 use std::cmp::Ordering;
 
 /// The states with the extreme values.
@@ -155,9 +155,8 @@ impl<'a> Analysis<'a> {
         if !(0..row.len()).any(|j| row.upper[j] > 0.0 && inside(&j)) {
             return false;
         }
-        let bounds = if self.players.nature == Direction::Min { row.upper } else { row.lower };
-        outside < 1.0 - margin(row.len())
-            || compare_with_one((0..row.len()).filter(|j| !inside(j)).map(|j| bounds[j])) == Ordering::Less
+        let end = if self.players.nature == Direction::Min { End::Upper } else { End::Lower };
+        outside < 1.0 - margin(row.len()) || compare_with_one(row, end, |j| !inside(&j)) == Ordering::Less
     }
 }
 

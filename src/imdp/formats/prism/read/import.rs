@@ -46,7 +46,8 @@ pub fn import_with_progress(
 /// with `#` are comments, as in the files that PRISM exports. Blanks, order and names that PRISM would not accept are
 /// read with a warning; they change nothing.
 ///
-/// Bounds become the doubles nearest to them. Sums are judged on the decimals as written: lower bounds that
+/// Bounds become the doubles nearest to them, with the numbers themselves beside where those are not the shortest decimals of
+/// the doubles. Sums are judged on the decimals as written: lower bounds that
 /// exceed 1, or upper bounds that do not reach it, by at most 10⁻⁹ are widened outwards with a warning.
 /// Equal rows are stored once; a state whose only choice is to stay becomes absorbing.
 ///

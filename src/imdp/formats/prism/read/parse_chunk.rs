@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 
 use crate::formats::import::{
-    Cursor, Fault, Judgement, PendingRow, RowFault, describe, hash_row, read_interval, written_bounds,
+    Cursor, Fault, Interval, Judgement, PendingRow, RowFault, describe, hash_row, read_interval,
+    written_bounds,
 };
 use crate::model::{ActionNames, ModelKind, Row, Rows, StateId};
 
@@ -99,13 +100,13 @@ impl<'a> Parser<'a> {
             if self.row.is_empty() || !self.cursor.skip(self.key) {
                 self.finish_choice()?;
                 self.begin_choice()?;
-                let (successor, lower, upper) = self.transition()?;
+                let (successor, interval) = self.transition()?;
                 self.first_action()?;
-                self.row.push(successor, lower, upper);
+                self.row.push(successor, interval);
             } else {
-                let (successor, lower, upper) = self.transition()?;
+                let (successor, interval) = self.transition()?;
                 self.same_action()?;
-                self.row.push(successor, lower, upper);
+                self.row.push(successor, interval);
             }
             self.cursor.line_end("the end of the line")?;
         }
@@ -139,11 +140,10 @@ impl<'a> Parser<'a> {
     }
 
     #[inline]
-    fn transition(&mut self) -> Result<(StateId, f64, f64), Box<Fault>> {
+    fn transition(&mut self) -> Result<(StateId, Interval), Box<Fault>> {
         let successor = self.state("a destination")?;
         self.cursor.expect(b' ', "one blank")?;
-        let (lower, upper) = read_interval(&mut self.cursor, b"")?;
-        Ok((successor, lower, upper))
+        Ok((successor, read_interval(&mut self.cursor, b"")?))
     }
 
     fn first_action(&mut self) -> Result<(), Box<Fault>> {
@@ -197,7 +197,7 @@ impl<'a> Parser<'a> {
         let finished = self.row.finish(written, &mut self.chunk.rows);
         let finished = finished.map_err(|fault| place(fault, lines, line, field));
         self.row.clear();
-        if finished? == Judgement::Widened {
+        if finished? != Judgement::FINE {
             self.chunk.widened.get_or_insert((0, u64::from(choice.line))).0 += 1;
         }
         choice.hash = hash_row(last_row(&self.chunk.rows));

@@ -1,7 +1,7 @@
 //! The `.tra` file: every transition of every choice, streamed from shared rows.
 
 use crate::files::interruption;
-use crate::model::{ActionNames, IntervalMdp, ModelKind, RowId, StateId};
+use crate::model::{ActionNames, End, IntervalMdp, ModelKind, RowId, StateId};
 use crate::numeric::shortest_decimal;
 use crate::progress::Progress;
 use rayon::prelude::*;
@@ -64,9 +64,12 @@ impl RowTexts {
                 ActionNames::OfChoice { .. } => String::new(),
             };
             for (i, successor) in row.successors.iter().enumerate() {
-                let lower = if row.lower[i] == 0.0 { RAISED_LOWER_BOUND } else { row.lower[i] };
-                let interval = (shortest_decimal(lower), shortest_decimal(row.upper[i].max(lower)));
-                let text = format!(" {successor} [{},{}]{tail}", interval.0, interval.1);
+                let raised = |bound: f64, end| match bound == 0.0 {
+                    true => shortest_decimal(RAISED_LOWER_BOUND),
+                    false => row.text(end, i),
+                };
+                let (lower, upper) = (raised(row.lower[i], End::Lower), raised(row.upper[i], End::Upper));
+                let text = format!(" {successor} [{lower},{upper}]{tail}");
                 texts.text.extend_from_slice(text.as_bytes());
                 texts.ends.push(texts.text.len());
             }

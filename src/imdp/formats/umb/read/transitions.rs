@@ -6,8 +6,8 @@ use super::archive::Archive;
 use super::array::{Array, Offsets};
 use super::index::Index;
 use crate::formats::import::{
-    Assembly, AssemblyError, Expected, ImportError, Judgement, PendingRow, Position, RowFault, Transitions,
-    Warning, hash_row,
+    Assembly, AssemblyError, Expected, ImportError, Interval, Judgement, PendingRow, Position, RowFault,
+    Transitions, Warning, hash_row,
 };
 use crate::model::{Rows, StateId, StateSet};
 use crate::numeric::shortest_decimal;
@@ -45,7 +45,7 @@ pub(super) fn read_transitions(
             row.clear();
             for _ in range.clone() {
                 let (successor, lower, upper) = branches.next()?;
-                row.push(successor, lower, upper);
+                row.push(successor, Interval::of_doubles(lower, upper));
             }
             let action = match &mut actions {
                 Some(actions) => actions.next(range.end - range.start, &mut assembly)?,
@@ -64,7 +64,7 @@ pub(super) fn read_transitions(
                     at_branch(0, member::BRANCH_TO_PROBABILITY).refuse(fault.expected, fault.sum)
                 }
             })?;
-            if judgement == Judgement::Widened {
+            if judgement != Judgement::FINE {
                 let first = at_branch(0, member::BRANCH_TO_PROBABILITY);
                 widened.get_or_insert((0, first)).0 += 1;
             }

@@ -1,0 +1,146 @@
+//! Dynamics in model files: what is understood, and what is refused, where and why.
+
+use dynabs::model_file::{Document, StatedProblem};
+use dynabs::system::Mode;
+use std::path::Path;
+
+const CAR: &str = r#"{
+    "name": "car",
+    "dynamics": {
+        "states": ["p", "v"], "inputs": ["a"], "units": {"p": "m"},
+        "parameters": {"mass": [0.75, 1.25]},
+        "constants": {"tau": 0.1, "drag": "2*tau"},
+        "definitions": {"force": "a - drag*v*abs(v)"},
+        "next": ["p + tau*v", "v + tau*force/mass"]
+    },
+    "noise": {"components": [null, {"gaussian": {"variance": 0.01}}]},
+    "input": {"lower": [-1], "upper": [1], "points": [5]},
+    "partition": {"lower": [-2, -2], "upper": [2, 2], "cells": [20, 20]},
+    "task": {"goal": [{"lower": [1, null], "upper": [2, null]}], "horizon": 20}
+}"#;
+
+fn stated(set: &[&str]) -> Result<Box<dynabs::problem::InputProblem>, String> {
+    let mut document = Document::parse(Path::new("car.json"), CAR).unwrap();
+    for argument in set {
+        document.set(&argument.parse().unwrap()).unwrap();
+    }
+    match document.stated() {
+        Ok(StatedProblem::Inputs(problem)) => Ok(problem),
+        Ok(StatedProblem::Targets(_)) => Err("targets".into()),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+fn step(mode: &Mode, x: &[f64], u: &[f64], parameters: &[f64]) -> Vec<f64> {
+    let mut next = vec![0.0; x.len()];
+    mode.step(x, u, parameters, &mut Vec::new(), &mut next);
+    next
+}
+
+#[test]
+fn names_constants_and_definitions() {
+    let problem = stated(&[]).unwrap();
+    let mode = problem.mode();
+    assert_eq!(mode.states()[0].unit.as_deref(), Some("m"));
+    assert_eq!(mode.inputs()[0].name, "a");
+    let next = step(mode, &[1.0, -2.0], &[0.5], &[1.0]);
+    assert!((next[0] - 0.8).abs() < 1e-15 && (next[1] - (-2.0 + 0.1 * (0.5 + 0.8))).abs() < 1e-15);
+}
+
+#[test]
+fn one_input_held_for_several_steps() {
+    let (once, thrice) = (stated(&[]).unwrap(), stated(&["/dynamics/hold=3"]).unwrap());
+    let mut x = vec![0.3, 0.7];
+    for _ in 0..3 {
+        x = step(once.mode(), &x, &[-0.4], &[0.9]);
+    }
+    let held = step(thrice.mode(), &[0.3, 0.7], &[-0.4], &[0.9]);
+    assert!((held[0] - x[0]).abs() < 1e-14 && (held[1] - x[1]).abs() < 1e-14);
+}
+
+#[test]
+fn differential_equations() {
+    let smooth = "/dynamics/definitions/force=\"a - drag*v\"";
+    let rates = "/dynamics/derivative=[\"v\",\"force\"]";
+    let dynamics = ["/dynamics/next=null", smooth, rates, "/dynamics/sample_time=0.5"];
+    let problem = stated(&dynamics).unwrap();
+    // v̇ = a − 0.2 v.
+    let exact = 2.0 + (1.0 - 2.0) * (-0.1f64).exp();
+    let next = step(problem.mode(), &[0.0, 1.0], &[0.4], &[1.0]);
+    assert!((next[1] - exact).abs() < 1e-6, "{next:?}, not {exact}");
+
+    let matrices = "/dynamics={\"A\":[[0,1],[0,0]],\"B\":[[0],[1]],\"sample_time\":0.5}";
+    let problem = stated(&[matrices]).unwrap();
+    assert_eq!(step(problem.mode(), &[1.0, 2.0], &[4.0], &[]), [2.5, 4.0]);
+}
+
+#[test]
+fn feedback_leaves_its_share_of_the_inputs() {
+    let problem = stated(&["/feedback={\"gain\":[[0,2]]}"]).unwrap();
+    // Cells are 0.2 wide: the feedback moves the input by up to 0.2, so nominal inputs end at ±0.8.
+    let ends: Vec<_> = problem.inputs().iter().map(|u| u[0].to_string()).collect();
+    assert_eq!(ends, ["-4/5", "-2/5", "0", "2/5", "4/5"]);
+    for feedback in ["{\"narrow\":0.3}", "{\"lqr\":{\"Q\":[[1,0],[0,1]],\"R\":[[1]],\"decimals\":3}}"] {
+        let problem = stated(&[&format!("/feedback={feedback}")]);
+        assert!(!problem.unwrap().feedback().is_none(), "{feedback}");
+    }
+}
+
+#[test]
+fn mistakes_have_a_place_and_a_remedy() {
+    let mut others = Vec::new();
+    let deep = format!("/dynamics/next/0=\"{}p{}\"", "(".repeat(300), ")".repeat(300));
+    for (set, expected) in [
+        (&["/dynamics/next/1=\"v + f\""][..], "/dynamics/next/1 (column 5): found the unknown name \"f\""),
+        (&["/dynamics/next/0=\"p + 2 v\""], "/dynamics/next/0 (column 7): found \"v\""),
+        (&["/dynamics/next/0=\"p/(1-1)\""], "(column 2): found a division by 0"),
+        (&["/dynamics/next=[\"p\"]"], "/dynamics/states: found 2 names; expected 1"),
+        (&["/dynamics/constants/drag=\"2*v\""], "/dynamics/constants/drag (column 3)"),
+        (&["/dynamics/definitions/p=\"1\""], "/dynamics/definitions/p"),
+        (&["/dynamics/definitions/sin=\"1\""], "has a meaning of its own"),
+        (&["/dynamics/parameters/mass=[2,1]"], "/dynamics/parameters/mass: found [2, 1]"),
+        (&["/dynamics/parameters/mass=1"], "/dynamics/parameters/mass"),
+        (&["/dynamics/hold=0"], "/dynamics/hold"),
+        (&["/dynamics/units/q=\"m\""], "/dynamics/units/q"),
+        (&["/dynamics/inputs=[\"a\",\"b\"]"], "/input"),
+        (&["/dynamics/A=[[1,0],[0,1]]"], "found A, next"),
+        (&["/dynamics/sample_time=0.1"], "/dynamics/sample_time"),
+        (&["/dynamics/next=null"], "exactly one of A, next and derivative"),
+        (
+            &["/dynamics/next=null", "/dynamics/derivative=[\"v\",\"force\"]"],
+            "derivative without sample_time",
+        ),
+        (
+            &["/dynamics/next=null", "/dynamics/derivative=[\"v\",\"force\"]", "/dynamics/sample_time=0.1"],
+            "which has a kink",
+        ),
+        (&["/feedback={}"], "/feedback: found none of them"),
+        (&["/feedback={\"gain\":[[1]]}"], "/feedback/gain"),
+        (&["/feedback={\"gain\":[[0,100]]}"], "leaves room for the feedback"),
+        (&["/feedback={\"narrow\":2}"], "/feedback/narrow"),
+        (&["/actions=\"targets\""], "actions\": \"inputs\""),
+        (&[&deep], "nested more than"),
+    ] {
+        let error = stated(set).err().unwrap_or_else(|| panic!("{set:?} is no mistake"));
+        if !error.contains(expected) {
+            others.push(format!("{set:?}: {error}"));
+        }
+    }
+    assert!(others.is_empty(), "{others:#?}");
+}
+
+#[test]
+fn benchmarks_are_understood() {
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/benchmarks");
+    let mut models: Vec<_> =
+        std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path()).collect();
+    models.sort();
+    assert!(models.len() >= 20);
+    for path in models {
+        let document = Document::parse(&path, &std::fs::read_to_string(&path).unwrap()).unwrap();
+        let stated = document.stated().unwrap_or_else(|error| panic!("{error}"));
+        let StatedProblem::Inputs(problem) = stated else { panic!("{}: targets", path.display()) };
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        assert_eq!(problem.name(), name);
+    }
+}
