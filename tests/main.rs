@@ -28,6 +28,7 @@ mod paper;
 mod predecessors;
 mod promises;
 mod prune;
+mod readme;
 mod references;
 mod reliability;
 mod report;

@@ -71,6 +71,7 @@ pub mod model_file;
 pub mod noise;
 pub mod partition;
 pub mod problem;
+mod rendered;
 pub mod report;
 pub mod run;
 pub mod statistics;

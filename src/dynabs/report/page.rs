@@ -7,21 +7,48 @@ use super::material::Material;
 use super::picked::facts;
 use super::section::section;
 use super::{formulas, tables, words};
-use crate::controller::export::render;
+use crate::rendered::ended;
+use askama::Template;
 
-const TEMPLATE: &str = include_str!("../templates/report.html");
 const STYLE: &str = include_str!("../templates/report.css");
 const SCRIPT: &str = include_str!("../templates/report.js");
 
 /// Why there is no page.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ReportError {
-    /// The template asks for something unknown: a mistake in this program.
-    #[error("the template of the report asks for {key}")]
+    /// The template cannot be rendered: a mistake in this program.
+    #[error("the template of the report cannot be rendered: {found}")]
     Template {
-        /// What it asks for.
-        key: String,
+        /// What the template engine says.
+        found: String,
     },
+}
+
+/// The page; every field is safe markup.
+#[derive(Template)]
+#[template(path = "report.html", escape = "none")]
+struct Page {
+    name: String,
+    description: String,
+    mode: String,
+    version: String,
+    style: String,
+    guarantee: String,
+    warnings: String,
+    map: String,
+    value_name: String,
+    about_runs: String,
+    facts: String,
+    section: String,
+    left_out: String,
+    simulation: String,
+    model: String,
+    sizes: String,
+    budget: String,
+    cross_checks: String,
+    provenance: String,
+    data: String,
+    script: String,
 }
 
 /// The whole report as one HTML page that loads nothing.
@@ -37,30 +64,30 @@ pub fn page(material: &Material<'_>) -> Result<String, ReportError> {
         [] => String::new(),
         list => format!("<p>Left out of this page for its size: {}.</p>\n", escape(&list.join("; "))),
     };
-    let values = [
-        ("name", escape(problem.name())),
-        ("description", escape(description)),
-        ("mode", escape(&run.manifest.mode)),
-        ("version", env!("CARGO_PKG_VERSION").to_owned()),
-        ("style", format!("{PLOT_STYLE}{STYLE}")),
-        ("guarantee", words::guarantee(material)),
-        ("warnings", words::warnings(run)),
-        ("map", heat_map(material, &view).inline()),
-        ("value_name", material.value_name().to_owned()),
-        ("about_runs", words::about_runs(material)),
-        ("facts", picked_cell(material)),
-        ("section", section(material, &view).inline()),
-        ("left_out", left_out),
-        ("simulation", tables::simulation(material)),
-        ("model", formulas::model(material)),
-        ("sizes", tables::sizes(material)),
-        ("budget", tables::budget(run)),
-        ("cross_checks", tables::cross_checks(material.options.cross_checks.as_ref())),
-        ("provenance", tables::provenance(run)),
-        ("data", embedded.json),
-        ("script", SCRIPT.to_owned()),
-    ];
-    render(TEMPLATE, &values).map_err(|key| ReportError::Template { key })
+    let page = Page {
+        name: escape(problem.name()),
+        description: escape(description),
+        mode: escape(&run.manifest.mode),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        style: format!("{PLOT_STYLE}{STYLE}"),
+        guarantee: words::guarantee(material),
+        warnings: words::warnings(run),
+        map: heat_map(material, &view).inline(),
+        value_name: material.value_name().to_owned(),
+        about_runs: words::about_runs(material),
+        facts: picked_cell(material),
+        section: section(material, &view).inline(),
+        left_out,
+        simulation: tables::simulation(material),
+        model: formulas::model(material),
+        sizes: tables::sizes(material),
+        budget: tables::budget(run),
+        cross_checks: tables::cross_checks(material.options.cross_checks.as_ref()),
+        provenance: tables::provenance(run),
+        data: embedded.json,
+        script: SCRIPT.to_owned(),
+    };
+    page.render().map(ended).map_err(|error| ReportError::Template { found: error.to_string() })
 }
 
 /// The facts about the cell where runs start.

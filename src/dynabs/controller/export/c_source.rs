@@ -1,13 +1,12 @@
 //! The controller as one self-contained C99 file.
 
-use super::template::render;
 use crate::controller::Controller;
 use crate::partition::{CellId, CellKind};
 use crate::problem::Problem;
+use crate::rendered::ended;
+use askama::Template;
 use std::collections::BTreeMap;
 use std::fmt::Display;
-
-const TEMPLATE: &str = include_str!("../../templates/controller.c");
 
 /// The width of a line of C.
 const WIDTH: usize = 110;
@@ -21,12 +20,44 @@ pub enum CSourceError {
         /// The horizon.
         steps: u64,
     },
-    /// The template asks for something unknown: a mistake in this program.
-    #[error("the template of the C code asks for {key}")]
+    /// The template cannot be rendered: a mistake in this program.
+    #[error("the template of the C code cannot be rendered: {found}")]
     Template {
-        /// What it asks for.
-        key: String,
+        /// What the template engine says.
+        found: String,
     },
+}
+
+/// The file, field by field as the template names them.
+#[derive(Template)]
+#[template(path = "controller.c", escape = "none")]
+struct ControllerSource {
+    name: String,
+    version: String,
+    promise: String,
+    file: String,
+    function: String,
+    upper: String,
+    prefix: String,
+    states: String,
+    inputs: String,
+    group: String,
+    horizon: String,
+    constant: String,
+    target_gain: String,
+    state_gain: String,
+    num_faces: String,
+    faces: String,
+    first_face: String,
+    stride: String,
+    num_cells: String,
+    kind: String,
+    first_entry: String,
+    num_entries: String,
+    steps_left: String,
+    target_of: String,
+    num_targets: String,
+    target: String,
 }
 
 /// The controller as C99; `file` is how the file will be called.
@@ -52,35 +83,35 @@ pub fn c_source(controller: &Controller, problem: &Problem, file: &str) -> Resul
         CellKind::Goal => 1,
         CellKind::Unsafe => 2,
     };
-    let values = [
-        ("name", comment(problem.name())),
-        ("version", env!("CARGO_PKG_VERSION").to_owned()),
-        ("promise", promise(&controller.promise())),
-        ("file", comment(file)),
-        ("function", format!("{prefix}_control")),
-        ("PREFIX", prefix.to_uppercase()),
-        ("prefix", prefix),
-        ("states", n.to_string()),
-        ("inputs", controller.step_inputs().to_string()),
-        ("group", controller.group_steps().to_string()),
-        ("horizon", horizon.to_string()),
-        ("constant", list(controller.law.constant.iter().map(double))),
-        ("target_gain", rows(&controller.law.target_gain, n)),
-        ("state_gain", rows(&controller.law.state_gain, n)),
-        ("num_faces", faces.iter().map(Vec::len).sum::<usize>().to_string()),
-        ("faces", list(faces.iter().flatten().map(double))),
-        ("first_face", list(std::iter::once(0).chain(first_face))),
-        ("stride", list(controller.lookup.strides().iter())),
-        ("num_cells", controller.num_cells().to_string()),
-        ("kind", list(controller.kinds.iter().map(kind))),
-        ("first_entry", list(controller.schedule.starts.iter())),
-        ("num_entries", policy.steps_left.len().to_string()),
-        ("steps_left", list(policy.steps_left.iter())),
-        ("target_of", list(policy.target_of.iter())),
-        ("num_targets", (policy.points.len() / n).to_string()),
-        ("target", rows(&policy.points, n)),
-    ];
-    render(TEMPLATE, &values).map_err(|key| CSourceError::Template { key })
+    let source = ControllerSource {
+        name: comment(problem.name()),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        promise: promise(&controller.promise()),
+        file: comment(file),
+        function: format!("{prefix}_control"),
+        upper: prefix.to_uppercase(),
+        states: n.to_string(),
+        inputs: controller.step_inputs().to_string(),
+        group: controller.group_steps().to_string(),
+        horizon: horizon.to_string(),
+        constant: list(controller.law.constant.iter().map(double)),
+        target_gain: rows(&controller.law.target_gain, n),
+        state_gain: rows(&controller.law.state_gain, n),
+        num_faces: faces.iter().map(Vec::len).sum::<usize>().to_string(),
+        faces: list(faces.iter().flatten().map(double)),
+        first_face: list(std::iter::once(0).chain(first_face)),
+        stride: list(controller.lookup.strides().iter()),
+        num_cells: controller.num_cells().to_string(),
+        kind: list(controller.kinds.iter().map(kind)),
+        first_entry: list(controller.schedule.starts.iter()),
+        num_entries: policy.steps_left.len().to_string(),
+        steps_left: list(policy.steps_left.iter()),
+        target_of: list(policy.target_of.iter()),
+        num_targets: (policy.points.len() / n).to_string(),
+        target: rows(&policy.points, n),
+        prefix,
+    };
+    source.render().map(ended).map_err(|error| CSourceError::Template { found: error.to_string() })
 }
 
 /// The schedule with targets renumbered: only those that are used.

@@ -1,11 +1,43 @@
 //! The controller of a problem whose actions are inputs, as one self-contained C99 file.
 
 use super::c_source::{CSourceError, comment, double, identifier, list, promise, rows};
-use super::template::render;
 use crate::controller::InputController;
 use crate::partition::CellKind;
+use crate::rendered::ended;
+use askama::Template;
 
-const TEMPLATE: &str = include_str!("../../../../templates/input_controller.c");
+/// The file, field by field as the template names them.
+#[derive(Template)]
+#[template(path = "input_controller.c", escape = "none")]
+struct InputControllerSource {
+    name: String,
+    version: String,
+    promise: String,
+    file: String,
+    function: String,
+    upper: String,
+    prefix: String,
+    states: String,
+    inputs: String,
+    array_inputs: String,
+    horizon: String,
+    period: String,
+    num_faces: String,
+    faces: String,
+    first_face: String,
+    num_centers: String,
+    centers: String,
+    stride: String,
+    num_cells: String,
+    kind: String,
+    first_entry: String,
+    num_entries: String,
+    steps_left: String,
+    input_of: String,
+    num_nominal: String,
+    nominal: String,
+    gain: String,
+}
 
 /// The controller as C99; `name` is the model's, `file` how the file will be called.
 ///
@@ -40,34 +72,34 @@ pub fn input_c_source(controller: &InputController, name: &str, file: &str) -> R
     let entries = &controller.schedule.entries;
     let or_zero = |numbers: Vec<u64>| list(if numbers.is_empty() { vec![0] } else { numbers }.into_iter());
     let gain = controller.feedback.nearest_gain();
-    let values = [
-        ("name", comment(name)),
-        ("version", env!("CARGO_PKG_VERSION").to_owned()),
-        ("promise", promise(&controller.promise())),
-        ("file", comment(file)),
-        ("function", format!("{prefix}_control")),
-        ("PREFIX", prefix.to_uppercase()),
-        ("prefix", prefix),
-        ("states", n.to_string()),
-        ("inputs", p.to_string()),
-        ("array_inputs", p.max(1).to_string()),
-        ("horizon", horizon.to_string()),
-        ("period", list(controller.periods.iter().map(double))),
-        ("num_faces", faces.iter().map(Vec::len).sum::<usize>().to_string()),
-        ("faces", list(faces.iter().flatten().map(double))),
-        ("first_face", list(std::iter::once(0).chain(first_face))),
-        ("num_centers", controller.centers.iter().map(Vec::len).sum::<usize>().to_string()),
-        ("centers", list(controller.centers.iter().flatten().map(double))),
-        ("stride", list(controller.lookup.strides().iter())),
-        ("num_cells", controller.num_cells().to_string()),
-        ("kind", list(controller.kinds.iter().map(kind))),
-        ("first_entry", list(controller.schedule.starts.iter())),
-        ("num_entries", entries.len().max(1).to_string()),
-        ("steps_left", or_zero(entries.iter().map(|entry| entry.steps_left).collect())),
-        ("input_of", or_zero(entries.iter().map(|entry| entry.target.into()).collect())),
-        ("num_nominal", (controller.inputs.len() / p.max(1)).max(1).to_string()),
-        ("nominal", padded(&controller.inputs, p)),
-        ("gain", padded(gain, if p == 0 { 1 } else { n })),
-    ];
-    render(TEMPLATE, &values).map_err(|key| CSourceError::Template { key })
+    let source = InputControllerSource {
+        name: comment(name),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        promise: promise(&controller.promise()),
+        file: comment(file),
+        function: format!("{prefix}_control"),
+        upper: prefix.to_uppercase(),
+        states: n.to_string(),
+        inputs: p.to_string(),
+        array_inputs: p.max(1).to_string(),
+        horizon: horizon.to_string(),
+        period: list(controller.periods.iter().map(double)),
+        num_faces: faces.iter().map(Vec::len).sum::<usize>().to_string(),
+        faces: list(faces.iter().flatten().map(double)),
+        first_face: list(std::iter::once(0).chain(first_face)),
+        num_centers: controller.centers.iter().map(Vec::len).sum::<usize>().to_string(),
+        centers: list(controller.centers.iter().flatten().map(double)),
+        stride: list(controller.lookup.strides().iter()),
+        num_cells: controller.num_cells().to_string(),
+        kind: list(controller.kinds.iter().map(kind)),
+        first_entry: list(controller.schedule.starts.iter()),
+        num_entries: entries.len().max(1).to_string(),
+        steps_left: or_zero(entries.iter().map(|entry| entry.steps_left).collect()),
+        input_of: or_zero(entries.iter().map(|entry| entry.target.into()).collect()),
+        num_nominal: (controller.inputs.len() / p.max(1)).max(1).to_string(),
+        nominal: padded(&controller.inputs, p),
+        gain: padded(gain, if p == 0 { 1 } else { n }),
+        prefix,
+    };
+    source.render().map(ended).map_err(|error| CSourceError::Template { found: error.to_string() })
 }
