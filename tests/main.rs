@@ -19,6 +19,7 @@ mod guarantee;
 mod import;
 mod inputs;
 mod intervals;
+mod memory;
 mod native;
 mod noise_masses;
 mod open;

@@ -88,10 +88,7 @@ impl CliError {
                 format!("at least {needed} samples for this confidence"),
             )
             .remedy("Collect more samples or lower the confidence."),
-            AbstractionError::Memory(error) => {
-                Diagnostic::at("/partition/cells", error.to_string(), "a model that fits")
-                    .remedy("Use fewer cells or targets, or a machine with more memory.")
-            }
+            AbstractionError::Memory(error) => error.into(),
             AbstractionError::Foreign => {
                 return Self::Input(format!(
                     "{file}: found another problem's model; expected the one compiled from it\n  Compile it again."

@@ -33,8 +33,8 @@ pub(super) struct LoadedModel {
 /// What the manifest of a run promises of the model that was read.
 struct Promise {
     guarantee: Guarantee,
-    /// Why it is not about the file that was read.
-    gap: Option<Gap>,
+    /// Whether the file that was read has raised lower bounds.
+    raised: bool,
 }
 
 impl LoadedModel {
@@ -56,9 +56,9 @@ impl LoadedModel {
         property: &Property,
         bounds: [f64; 2],
     ) -> Result<Option<Claim>, PropertyError> {
-        let claim = |promise: &Promise| match promise.gap {
-            Some(gap) => Ok(promise.guarantee.no_claim(&[gap])),
-            None => promise.guarantee.claim(property, &self.model, bounds),
+        let claim = |promise: &Promise| match promise.raised {
+            true => Ok(promise.guarantee.no_claim(&[Gap::RaisedBounds])),
+            false => promise.guarantee.claim(property, &self.model, bounds),
         };
         self.promise.as_ref().map(claim).transpose()
     }
@@ -138,7 +138,7 @@ fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<Loade
     if native.exists() && !explicit {
         verify(&[NATIVE_MODEL, "model.props"])?;
         let mut loaded = load_file(&native, Format::Native, bars)?;
-        loaded.promise = promise(manifest.as_ref(), &loaded, false)?;
+        loaded.promise = manifest.map(|manifest| Promise { guarantee: manifest.guarantee, raised: false });
         return Ok(loaded);
     }
     if !tra.exists() {
@@ -155,29 +155,10 @@ fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<Loade
         loaded.model.rows().iter().any(|row| row.lower.contains(&manifest.prism_lower_bound))
     };
     let raised = manifest.as_ref().filter(raised);
-    loaded.promise = promise(manifest.as_ref(), &loaded, raised.is_some())?;
     loaded.warnings.extend(raised.map(|manifest| raised_bounds(manifest, &loaded.model)));
+    let raised = raised.is_some();
+    loaded.promise = manifest.map(|manifest| Promise { guarantee: manifest.guarantee, raised });
     Ok(loaded)
-}
-
-/// What the manifest promises, which is nothing of files that it does not describe.
-fn promise(
-    manifest: Option<&Manifest>,
-    loaded: &LoadedModel,
-    raised: bool,
-) -> Result<Option<Promise>, CliError> {
-    let Some(manifest) = manifest else { return Ok(None) };
-    let described = || {
-        let digests = loaded.digests()?;
-        Ok::<_, CliError>(
-            (digests.iter()).all(|file| manifest.outputs.iter().any(|o| o.sha256 == file.sha256)),
-        )
-    };
-    let gap = match raised {
-        true => Some(Gap::RaisedBounds),
-        false => (!described()?).then_some(Gap::OtherModel),
-    };
-    Ok(Some(Promise { guarantee: manifest.guarantee.clone(), gap }))
 }
 
 /// What raising lower bounds of 0 for PRISM can do to the values of this file.

@@ -66,6 +66,7 @@ pub mod geometry;
 pub mod guarantee;
 pub mod landing;
 pub mod linear_algebra;
+pub mod memory;
 pub mod model_file;
 pub mod noise;
 pub mod partition;

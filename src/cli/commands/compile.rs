@@ -3,14 +3,15 @@
 use super::compile_inputs;
 use super::solve::LimitArguments;
 use crate::results::{PropertyResult, exit_code, table};
-use crate::summary::summary;
+use crate::summary::{memory, summary};
 use crate::{Bars, CliError, EncodingName, FormatName, print, use_threads, warn};
 use clap::Parser;
-use dynabs::abstraction::{Abstraction, compile};
+use dynabs::abstraction::{Abstraction, Footprint, compile};
 use dynabs::model_file::{Document, SetArgument, StatedProblem, json_schema, starter_model};
 use dynabs::problem::Problem;
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, solution_options, write_run};
 use imdp::files::{self, Outputs};
+use imdp::model::available_memory;
 use imdp::solver::{Answer, Pruned};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -205,7 +206,7 @@ fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliErro
         let claim = guarantee.claim(&abstraction.property, &abstraction.model, bounds);
         result.guarantee = Some(claim.map_err(|error| CliError::Failure(error.to_string()))?);
     }
-    report(arguments, &manifest, &phases, &results)?;
+    report(arguments, &manifest, &abstraction.footprint, &phases, &results)?;
     Ok(exit_code(&results))
 }
 
@@ -285,6 +286,7 @@ fn configure(path: &Path, source: &str, arguments: &Arguments) -> Result<(Docume
 fn report(
     arguments: &Arguments,
     manifest: &Manifest,
+    footprint: &Footprint,
     phases: &[(&str, Duration)],
     results: &[PropertyResult],
 ) -> Result<(), CliError> {
@@ -304,6 +306,12 @@ fn report(
             .map_err(|error| CliError::Failure(format!("the manifest has no JSON form: {error}")))?;
         if let Value::Object(object) = &mut object {
             object.insert("seconds".to_owned(), Value::Object(times));
+            if arguments.dry_run {
+                let available = available_memory().map(|(bytes, _)| bytes);
+                let memory =
+                    json!({"needs": footprint.needs(), "bytes": footprint.bytes(), "available": available});
+                object.insert("memory".to_owned(), memory);
+            }
             if !results.is_empty() {
                 object.insert("results".to_owned(), json!(results));
             }
@@ -314,6 +322,7 @@ fn report(
     } else {
         let directory = arguments.output.as_ref().filter(|_| !arguments.dry_run);
         let text = summary(manifest, directory.map(|path| path.display().to_string()).as_deref());
-        print(&(text + &table(results)))
+        let memory = if arguments.dry_run { memory(footprint) } else { String::new() };
+        print(&(text + &memory + &table(results)))
     }
 }

@@ -7,7 +7,7 @@ use super::pac::PacRows;
 use super::states::{FAILED, REACHED, StateSpace, labels};
 use super::steering::Steering;
 use super::targets::Targets;
-use super::{AbstractionError, reference};
+use super::{AbstractionError, Footprint, reference};
 use crate::Warning;
 use crate::guarantee::{Event, Evidence, Guarantee};
 use crate::partition::{CellId, CellKind, Grid};
@@ -37,6 +37,8 @@ pub struct Abstraction {
     pub law: FeedbackLaw,
     /// What the intervals promise, which is nothing in `reference` mode.
     pub guarantee: Guarantee,
+    /// How much memory was expected to be needed.
+    pub footprint: Footprint,
     /// How long each phase took.
     pub phases: Vec<(&'static str, Duration)>,
     /// What the user should know.
@@ -69,6 +71,10 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
     let grid = problem.grid();
     let steering = Steering::new(problem)?;
     clock.lap("law");
+
+    let footprint = Footprint::new(problem, &steering).with_rows(problem, &steering);
+    footprint.check()?;
+    clock.lap("memory");
 
     let Base { placements, intervals, enabling } = Base::new(problem, &steering, progress)?;
     clock.lap("enabled actions");
@@ -121,6 +127,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
         targets: steering.targets,
         law: steering.law,
         guarantee: Guarantee { event: Event::of(problem), evidence },
+        footprint,
         phases: clock.phases,
         warnings,
     })
@@ -149,6 +156,8 @@ impl Abstraction {
     ) -> Result<Self, AbstractionError> {
         let mut clock = Clock { start: Instant::now(), phases: vec![] };
         let steering = Steering::new(problem)?;
+        let footprint = Footprint::new(problem, &steering);
+        footprint.check()?;
         let enabled = Base::new(problem, &steering, progress)?.enabling.actions;
         let states = state_space(problem);
         let same = guarantee.event == Event::of(problem)
@@ -168,6 +177,7 @@ impl Abstraction {
             targets: steering.targets,
             law: steering.law,
             guarantee,
+            footprint,
             phases: clock.phases,
         })
     }

@@ -1,7 +1,8 @@
 //! Why there is no abstraction.
 
+use crate::memory::TooLarge;
 use crate::statistics::BudgetError;
-use imdp::model::{ImdpError, MemoryError};
+use imdp::model::ImdpError;
 
 /// Why a valid problem has no abstraction.
 #[derive(Debug, thiserror::Error)]
@@ -30,7 +31,7 @@ pub enum AbstractionError {
     },
     /// The model does not fit into memory.
     #[error(transparent)]
-    Memory(#[from] MemoryError),
+    Memory(#[from] TooLarge),
     /// The budget was overspent: a mistake in this program.
     #[error(transparent)]
     Budget(#[from] BudgetError),

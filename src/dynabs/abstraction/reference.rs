@@ -6,13 +6,15 @@
 //! down, and zero lower bounds are raised to 10⁻⁴.
 
 use super::count_table::CountTable;
+use super::footprint::need_of_rows;
 use super::landings::{Landings, Placements, for_each_cell};
 use super::states::{OUTSIDE, StateSpace};
 use super::targets::Targets;
+use crate::memory::TooLarge;
 use crate::partition::Grid;
 use crate::problem::Problem;
 use crate::statistics::ReferenceIntervals;
-use imdp::model::{MemoryError, Rows, require_memory};
+use imdp::model::Rows;
 use imdp::progress::Progress;
 use rayon::prelude::*;
 
@@ -24,14 +26,10 @@ pub(super) fn build(
     placements: Placements<'_>,
     states: &StateSpace,
     progress: &dyn Progress,
-) -> Result<Rows, MemoryError> {
+) -> Result<Rows, TooLarge> {
     let grid: &Grid = problem.grid();
     let landings = Landings::new(&problem.noise().samples, placements);
-    // 4 bytes of successor and 16 of bounds per entry, twice while chunks are put together.
-    require_memory(
-        "the rows of the model",
-        targets.len() as u64 * landings.row_length(grid) as u64 * 20 * 2,
-    )?;
+    need_of_rows(problem, targets.len() as u64 * landings.row_length(grid) as u64).check()?;
     let intervals = ReferenceIntervals::new(problem.noise().samples.len() as u64, beta_per_interval);
     let inside: Vec<u32> = (0..targets.len())
         .into_par_iter()

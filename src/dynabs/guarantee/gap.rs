@@ -7,8 +7,6 @@ use std::fmt;
 pub enum Gap {
     /// The model is in reference mode.
     Published,
-    /// The model was not read from the file that the guarantee is about.
-    OtherModel,
     /// The file has raised lower bounds.
     RaisedBounds,
     /// A lower bound of a formula that is true in `failed`.
@@ -27,7 +25,6 @@ impl fmt::Display for Gap {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Published => "reference mode repeats the published tool's intervals, which are no guarantee",
-            Self::OtherModel => "the model is not the file that the manifest describes",
             Self::RaisedBounds => "lower bounds of 0 are raised in model.tra; leave out --explicit",
             Self::TrueInFailed => {
                 "the formula is true in \"failed\", where noise counts that no row lists, whatever it really does"

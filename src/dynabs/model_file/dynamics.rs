@@ -136,7 +136,7 @@ impl DynamicsSpec {
         };
         let place = "/dynamics/sample_time";
         let time = from_decimal(time)
-            .filter(|time| num_traits::Signed::is_positive(time))
+            .filter(num_traits::Signed::is_positive)
             .ok_or_else(|| Diagnostic::at(place, time.to_string(), "a positive number"))?;
         let sampled = SampledLinear::new(&system, &time).map_err(|error| {
             Diagnostic::at(place, error.to_string(), "a step that is short for these dynamics")

@@ -2,6 +2,7 @@
 
 use super::values::{count, symmetric, vector};
 use crate::linear_algebra::Definiteness;
+use crate::memory::Need;
 use crate::noise::{CsvError, Gaussian, NoiseSamples, parse_csv};
 use crate::statistics::departures;
 use crate::system::LinearSystem;
@@ -197,6 +198,10 @@ impl DrawnNoise {
             let expected = format!("between 1 and {MAX_SAMPLES} samples");
             return Err(Diagnostic::at("/noise/count", self.count.to_string(), expected));
         }
+        // What is drawn, the noise of groups, and that of the steps in between.
+        let numbers = self.count * (d * system.state_dimension()) as u64;
+        let need = Need { what: "samples", bytes: 40 * numbers, field: "/noise/count" };
+        need.check().map_err(|error| Diagnostic::from(&error))?;
         let (samples, between) = sums(&gaussian.sample(self.count as usize * d, self.seed), system, d);
         Ok(SampledNoise {
             samples,

@@ -4,6 +4,7 @@ use super::problem::Objective;
 use super::regions::{RegionBox, region, regions, widths};
 use super::{Probabilities, StepNoise};
 use crate::guarantee::Safety;
+use crate::memory::Need;
 use crate::partition::{CellKind, CellLabels, Grid, Region, first_overlap, near_misses};
 use crate::{Diagnostic, Warning};
 use imdp::property::Probability;
@@ -135,6 +136,7 @@ impl CheckedTask {
                 }
             }
         }
+        Need::of_cells(grid).check().map_err(|error| Diagnostic::from(&error))?;
         let (objective, labels) = match &task.aim {
             Aim::Reach { goal } => reach(goal, (&unsafe_, &places), grid)?,
             Aim::Stay { safe } => stay(safe, &unsafe_, grid)?,

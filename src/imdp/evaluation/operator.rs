@@ -80,7 +80,7 @@ impl Evaluator<'_> {
             }
             RewardPath::Cumulative(bound, factor) => {
                 let steps = bound.as_ref().map(steps);
-                let discount = factor.as_ref().map_or(1.0, |factor| number(factor));
+                let discount = factor.as_ref().map_or(1.0, number);
                 let solution = solve(&RewardQuery::Cumulative { steps, discount }, &self.options)?;
                 Ok(self.note(solution))
             }

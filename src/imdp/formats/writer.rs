@@ -7,7 +7,7 @@ use super::netcdf::{NetcdfError, NetcdfWriter};
 use super::prism::{MAX_COUNT, TraWriter, check_names, write_lab, write_sta};
 use super::umb::{Compression, UmbWriter};
 use super::{Format, native};
-use crate::model::{ExactBound, IntervalMdp, RowId, StateId};
+use crate::model::{ExactBound, IntervalMdp, MemoryError, RowId, StateId, require_memory};
 use crate::progress::Progress;
 use std::io::{self, Write};
 
@@ -56,6 +56,9 @@ pub enum WriteError {
         /// The number of transitions.
         transitions: u64,
     },
+    /// The text of the rows, which is made once, does not fit into memory.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
     /// It has a bound that the format cannot express.
     #[error(
         "a bound of successor {successor} in row {row} is {bound}, which {format} cannot hold: it has {holds}; write \
@@ -101,6 +104,9 @@ fn check_bounds(model: &IntervalMdp, format: Format) -> Result<(), WriteError> {
     Ok(())
 }
 
+/// What an entry of a row takes as text, or as the arrays of an archive.
+const ENTRY_BYTES: u64 = 64;
+
 impl<'a> ModelWriter<'a> {
     /// Prepares to write `model`; `compression` is that of UMB.
     ///
@@ -108,6 +114,10 @@ impl<'a> ModelWriter<'a> {
     /// [`WriteError`] if the format cannot express the model.
     pub fn new(model: &'a IntervalMdp, format: Format, compression: Compression) -> Result<Self, WriteError> {
         check_bounds(model, format)?;
+        if format != Format::Native {
+            let bytes = ENTRY_BYTES * model.rows().num_entries() as u64;
+            require_memory(format!("writing the rows as {}", format.extension()), bytes)?;
+        }
         let format = match format {
             Format::Native => FormatWriter::Native,
             Format::Drn => FormatWriter::Drn(DrnWriter::new(model)?),

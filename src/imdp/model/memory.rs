@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 
 /// More memory would be needed than there is.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{what} needs about {needed_mib} MiB of memory, {available_mib} MiB are available ({limit})")]
+#[error(
+    "{what}: about {needed_mib} MiB of memory would be needed, {available_mib} MiB are available ({limit})"
+)]
 pub struct MemoryError {
     /// What would be allocated.
     pub what: String,
@@ -74,6 +76,38 @@ pub fn require_memory(what: impl Into<String>, bytes: u64) -> Result<(), MemoryE
     }
 }
 
+/// Memory for something that grows step by step, asked for in leaps: asking takes as long as a small step.
+#[derive(Clone, Debug)]
+pub struct GrowingMemory {
+    what: &'static str,
+    approved: u64,
+}
+
+impl GrowingMemory {
+    /// For `what`, of which there is nothing yet.
+    pub fn new(what: &'static str) -> Self {
+        Self { what, approved: 0 }
+    }
+
+    /// Makes sure that there is room for `next` bytes beside the `used` ones.
+    ///
+    /// # Errors
+    /// [`MemoryError`] if there may be none.
+    pub fn make_room(&mut self, used: u64, next: u64) -> Result<(), MemoryError> {
+        let needed = used.saturating_add(next);
+        if needed > self.approved {
+            let wanted = self.approved.saturating_mul(2).max(needed);
+            // A leap may be too far where a step is not.
+            let granted = match require_memory(self.what, wanted - used) {
+                Ok(()) => wanted,
+                Err(_) => require_memory(self.what, next).map(|()| needed)?,
+            };
+            self.approved = granted;
+        }
+        Ok(())
+    }
+}
+
 /// The number behind a name in a file like `/proc/meminfo`, in bytes.
 fn field(text: &str, name: &str) -> Option<u64> {
     let line = text.lines().find(|line| line.starts_with(name))?;
@@ -139,6 +173,14 @@ mod tests {
         assert_eq!(of_process(&limits.replace("8000000", "unlimited"), status), None);
         let data = limits.replace("size             unlimited", "size             600000   ");
         assert_eq!(of_process(&data, status), Some(600_000 - 512_000));
+    }
+
+    #[test]
+    fn growing_is_refused_when_there_is_no_room() {
+        let mut memory = GrowingMemory::new("a list");
+        assert_eq!(memory.make_room(0, 1000), Ok(()));
+        let error = memory.make_room(1000, u64::MAX / 2).unwrap_err();
+        assert!(error.to_string().starts_with("a list: about"), "{error}");
     }
 
     /// Directories as the kernel shows them, version by version.

@@ -18,7 +18,7 @@ pub use exact_bounds::{End, ExactBound};
 pub use fixedbitset::FixedBitSet as StateSet;
 pub use interval_mdp::{ActionNames, ImdpError, IntervalMdp, ModelKind, Parts, Size};
 pub use labels::{Labels, StateVariable, StateVariables, VariableValues};
-pub use memory::{MemoryError, MemoryLimit, available_memory, require_memory};
+pub use memory::{GrowingMemory, MemoryError, MemoryLimit, available_memory, require_memory};
 pub use restrict::restrict;
 pub use rewards::{RewardError, RewardStructure, Rewards};
 pub use rows::{Row, RowError, Rows};

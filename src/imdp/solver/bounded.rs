@@ -12,7 +12,7 @@ use super::range_optimum::RangeOptimum;
 use super::sweep::Sweep;
 use super::{Policy, Solution, SolveError, SolverOptions, Status, ValueBounds};
 use crate::certificate::Evidence;
-use crate::model::{IntervalMdp, StateId, StateSet};
+use crate::model::{GrowingMemory, IntervalMdp, StateId, StateSet};
 
 /// The value of `safe U<=steps goal`.
 pub(super) fn until(
@@ -67,6 +67,9 @@ pub(super) fn indicator(set: &StateSet) -> Vec<f64> {
     (0..set.len()).map(|s| if set.contains(s) { 1.0 } else { 0.0 }).collect()
 }
 
+/// A change in a list that grows, which may take twice as much, and in the policy that it becomes.
+const CHANGE_BYTES: u64 = 2 * size_of::<(StateId, u64, u32)>() as u64 + 16;
+
 struct Iteration<'a> {
     model: &'a IntervalMdp,
     players: Players,
@@ -82,6 +85,7 @@ struct Iteration<'a> {
     /// The current choice of every state, if a policy is wanted, and all changes of it.
     current: Option<Vec<u32>>,
     changes: Vec<(StateId, u64, u32)>,
+    memory: GrowingMemory,
     /// By position in `sweep.states`: whether the last step raised the lower bound.
     raised: Vec<bool>,
     recorder: Option<Recorder>,
@@ -111,6 +115,7 @@ impl<'a> Iteration<'a> {
             monotone: true,
             current: (options.policy || options.evidence).then(|| vec![NO_CHOICE; model.num_states()]),
             changes: vec![],
+            memory: GrowingMemory::new("the policy"),
             raised: vec![false; states.len()],
             recorder: options.evidence.then(|| Recorder::new(states.len())),
             history: History::new(options.history),
@@ -121,10 +126,14 @@ impl<'a> Iteration<'a> {
     /// One step; returns whether any bound changed. `left` is the number of steps left in the new values.
     ///
     /// # Errors
-    /// [`SolveError::Memory`] if the step cannot be recorded.
+    /// [`SolveError::Memory`] if there may be no room for the step's certificate or changes of the policy.
     fn step(&mut self, left: u64) -> Result<bool, SolveError> {
         let mut changed = false;
         self.gap = 0.0;
+        if self.current.is_some() {
+            let bytes = |changes: usize| CHANGE_BYTES * changes as u64;
+            self.memory.make_room(bytes(self.changes.len()), bytes(self.sweep.states.len()))?;
+        }
         let mut recorder = self.recorder.as_mut();
         if let Some(recorder) = &mut recorder {
             recorder.begin()?;

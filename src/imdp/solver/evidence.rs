@@ -1,21 +1,21 @@
 //! What is recorded for a certificate.
 
 use crate::certificate::Step;
-use crate::model::{MemoryError, StateId, require_memory};
+use crate::model::{GrowingMemory, MemoryError, StateId};
 
 /// The steps of a bounded query, as far as they changed anything.
 pub(super) struct Recorder {
     states: usize,
     steps: Vec<Step>,
-    /// How much memory the steps take, and up to which amount there was enough.
+    /// How much memory the steps take.
     used: u64,
-    approved: u64,
+    memory: GrowingMemory,
 }
 
 impl Recorder {
     /// For so many states that can change.
     pub(super) fn new(states: usize) -> Self {
-        Self { states, steps: vec![], used: 0, approved: 0 }
+        Self { states, steps: vec![], used: 0, memory: GrowingMemory::new("the certificate") }
     }
 
     /// Begins a step.
@@ -25,12 +25,7 @@ impl Recorder {
     pub(super) fn begin(&mut self) -> Result<(), MemoryError> {
         // Two bounds and a choice for every state; a list that grows may take twice what it holds.
         let next = size_of::<Step>() as u64 + 2 * 40 * self.states as u64;
-        if self.used + next > self.approved {
-            // Asked in leaps: asking takes as long as a small step.
-            let wanted = (2 * self.approved).max(self.used + next);
-            require_memory("the certificate", wanted - self.used)?;
-            self.approved = wanted;
-        }
+        self.memory.make_room(self.used, next)?;
         self.steps.push(Step::default());
         Ok(())
     }

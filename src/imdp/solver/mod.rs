@@ -40,6 +40,7 @@ mod slow;
 mod solution;
 mod sweep;
 mod unbounded;
+mod working_memory;
 
 pub use answer::{Answer, AnswerError};
 pub use delay::solve_delayed;
@@ -58,7 +59,7 @@ use crate::property::Resolution;
 /// Bounds on the value of a query in every state.
 ///
 /// # Errors
-/// [`SolveError`] if a set does not fit the model or `epsilon` is not positive. How a computation ended
+/// [`SolveError`] if a set does not fit the model, `epsilon` is not positive or memory is short. How a computation ended
 /// is not an error but the [`Status`] of the solution.
 pub fn solve(
     model: &IntervalMdp,
@@ -71,6 +72,7 @@ pub fn solve(
     if epsilon.is_nan() || epsilon <= 0.0 {
         return Err(SolveError::Epsilon { epsilon });
     }
+    working_memory::require_working_memory(model)?;
     let players = resolution.into();
     match *query {
         Event::Next { goal } => bounded::next(model, goal, players, options),

@@ -55,8 +55,8 @@ pub enum SolveError {
         /// What was given.
         epsilon: f64,
     },
-    /// What a certificate needs does not fit into memory.
-    #[error("{0}; solve without a certificate, or with fewer steps")]
+    /// What the solution takes does not fit into memory.
+    #[error("{0}; solve without a certificate, with fewer steps, or a smaller model")]
     Memory(#[from] MemoryError),
 }
 

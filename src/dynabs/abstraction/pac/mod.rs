@@ -71,6 +71,7 @@ mod levels;
 mod prepared;
 
 use super::AbstractionError;
+use super::footprint::need_of_rows;
 use super::landing::{RegionCounts, Spread};
 use super::landings::{Landings, Placements, for_each_cell, is_inside};
 use super::outcomes::{Outcome, Outcomes};
@@ -81,7 +82,7 @@ use crate::guarantee::SampleEvidence;
 use crate::problem::Problem;
 use bounds::{BoundTable, DIGITS, Interval};
 use ground::{Ground, cell_events, intervals};
-use imdp::model::{Rows, require_memory};
+use imdp::model::Rows;
 use imdp::numeric::{round_decimal_down, round_decimal_up};
 use imdp::progress::Progress;
 use imdp::solver::worst_expectations;
@@ -122,10 +123,8 @@ impl<'a> PacRows<'a> {
         let levels = &prepared.levels;
         let inside_only = levels.lower_bounds() == LowerBounds::InsideWindows;
         let landings = Landings::in_windows(samples, placements, prepared.windows.clone(), inside_only);
-        // 4 bytes of successor and 16 of bounds per entry; one model to choose windows by, another one, and the
-        // pieces that it is put together from.
         let entries = targets.len() as u64 * landings.row_length(grid) as u64;
-        require_memory("the rows of the model", entries * 20 * 3)?;
+        need_of_rows(problem, entries).check()?;
 
         let counts = |origin: &mut Vec<i32>, target| {
             let (landing, _) = landings.of(targets, target, grid, origin);

@@ -1,8 +1,8 @@
 //! The model with row states.
 
 use crate::model::{
-    ActionNames, ChoicesBuilder, ImdpError, IntervalMdp, Labels, Parts, RowId, RowRange, Rows, StateId,
-    StateSet, StateVariables, VariableValues,
+    ActionNames, ChoicesBuilder, ImdpError, IntervalMdp, Labels, MemoryError, Parts, RowId, RowRange, Rows,
+    StateId, StateSet, StateVariables, VariableValues, require_memory,
 };
 
 /// A model in the row-sharing encoding.
@@ -36,6 +36,9 @@ pub enum EncodingError {
         /// Its number of steps.
         steps: u64,
     },
+    /// It does not fit into memory.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
     /// The parts do not make a model.
     #[error(transparent)]
     Model(#[from] ImdpError),
@@ -45,7 +48,7 @@ impl RowStates {
     /// Encodes a model; rows that no state chooses are left out.
     ///
     /// # Errors
-    /// [`EncodingError::TooLarge`].
+    /// [`EncodingError::TooLarge`] or [`EncodingError::Memory`].
     pub fn new(model: &IntervalMdp) -> Result<Self, EncodingError> {
         let states = model.num_states();
         let used = used_rows(model);
@@ -54,6 +57,10 @@ impl RowStates {
         if states.max(count) + count >= StateId::MAX as usize {
             return Err(EncodingError::TooLarge { states, rows: count });
         }
+        let ranges = model.choices().num_ranges() + count;
+        // The rows again and one for each, ranges in a list that grows, and per state what states have.
+        let bytes = 20 * (model.rows().num_entries() + 2 * count) + 16 * ranges + 48 * (states + count);
+        require_memory("the model with row states", bytes as u64)?;
         let mut new_ids = Vec::with_capacity(used.len());
         let mut next: RowId = 0;
         for &used in &used {

@@ -1,0 +1,120 @@
+//! How much memory a compilation takes, known before it takes it.
+
+use super::steering::Steering;
+use crate::memory::{Need, TooLarge};
+use crate::partition::{CellId, CellKind};
+use crate::problem::{Actions, Problem, TargetPoints};
+use imdp::numeric::to_f64;
+use serde::Serialize;
+
+/// What all parts take.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Footprint {
+    needs: Vec<Need>,
+}
+
+/// Per target: how far it is from the goal, its counts, where its row starts.
+const TARGET_BYTES: u64 = 96;
+
+/// Per range of enabled actions: as they are found, put together, in a list that grows, and in two models.
+const RANGE_BYTES: u64 = 40;
+
+/// Per entry of a row, successor and bounds: in two models, and in the pieces that they are put together from.
+const ENTRY_BYTES: u64 = 60;
+
+/// How many cells say how many ranges all have.
+const PROBED_CELLS: u32 = 512;
+
+/// They are looked at in such pieces,
+const PROBED_AT_ONCE: u32 = 16;
+
+/// until they have so many ranges: where cells have very many, few of them say enough.
+const ENOUGH_RANGES: u64 = 1 << 18;
+
+impl Footprint {
+    /// What cells, targets and enabled actions of a problem take, the latter by an estimate.
+    pub(super) fn new(problem: &Problem, steering: &Steering) -> Self {
+        let grid = problem.grid();
+        let field = field_of_targets(problem);
+        let targets = steering.targets.len() as u64;
+        let need = |what, bytes, field| Need { what, bytes, field };
+        let needs = vec![
+            Need::of_cells(grid),
+            need("the targets", targets * TARGET_BYTES, field),
+            need("the enabled actions", ranges(problem, steering).saturating_mul(RANGE_BYTES), field),
+        ];
+        Self { needs }
+    }
+
+    /// And what its rows take, by an estimate.
+    pub(super) fn with_rows(mut self, problem: &Problem, steering: &Steering) -> Self {
+        let entries = (steering.targets.len() as u64).saturating_mul(row_length(problem));
+        self.needs.push(need_of_rows(problem, entries));
+        self
+    }
+
+    /// Fails if there is not enough memory for all of it together.
+    ///
+    /// # Errors
+    /// [`TooLarge`] with the largest part if it is too much by itself, else with all of it.
+    pub(super) fn check(&self) -> Result<(), TooLarge> {
+        let largest = self.needs.iter().max_by_key(|need| need.bytes);
+        largest.map_or(Ok(()), |largest| {
+            largest.check()?;
+            Need { what: "the whole compilation", bytes: self.bytes(), field: largest.field }.check()
+        })
+    }
+
+    /// The parts.
+    pub fn needs(&self) -> &[Need] {
+        &self.needs
+    }
+
+    /// All parts together.
+    pub fn bytes(&self) -> u64 {
+        self.needs.iter().fold(0, |sum, need| sum.saturating_add(need.bytes))
+    }
+}
+
+/// What rows with so many entries in all take.
+pub(super) fn need_of_rows(problem: &Problem, entries: u64) -> Need {
+    let bytes = entries.saturating_mul(ENTRY_BYTES);
+    Need { what: "the rows of the model", bytes, field: field_of_targets(problem) }
+}
+
+/// The field that makes fewer actions.
+fn field_of_targets(problem: &Problem) -> &'static str {
+    match problem.actions() {
+        Actions::Targets(TargetPoints::Centers) => "/partition/cells",
+        Actions::Targets(_) => "/targets",
+    }
+}
+
+/// How many ranges of actions are enabled in all cells, by the mean of some that lie evenly in all dimensions.
+fn ranges(problem: &Problem, steering: &Steering) -> u64 {
+    let cells = problem.grid().num_cells();
+    // Steps by the golden ratio of the cells: no two dimensions in step with each other.
+    let stride = (f64::from(cells) * 0.618_033_988_749_895) as u64 | 1;
+    let cell = |i: u32| CellId((u64::from(i) * stride % u64::from(cells)) as u32);
+    let (mut probed, mut found) = (0, 0u64);
+    while probed < cells.min(PROBED_CELLS) && found < ENOUGH_RANGES {
+        let next = (probed + PROBED_AT_ONCE).min(cells);
+        let ordinary = |&cell: &CellId| problem.labels().kind(cell) == CellKind::Ordinary;
+        let chosen: Vec<CellId> = (probed..next).map(cell).filter(ordinary).collect();
+        found += steering.enabled(problem, &chosen, &()).ranges.len() as u64;
+        probed = next;
+    }
+    // A quarter more for what the mean may miss.
+    found.saturating_mul(u64::from(cells)) / u64::from(probed) * 5 / 4
+}
+
+/// How many entries a row has at most: the cells that a box around all samples meets.
+fn row_length(problem: &Problem) -> u64 {
+    let samples = &problem.noise().samples;
+    let along = problem.grid().axes().iter().enumerate().map(|(j, axis)| {
+        let farthest = samples.iter().map(|sample| sample[j].abs()).fold(0.0, f64::max);
+        let cells = (2.0 * farthest / to_f64(axis.width())).ceil() + 2.0;
+        cells.min(f64::from(axis.cells())) as u64
+    });
+    along.fold(1, u64::saturating_mul)
+}

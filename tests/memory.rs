@@ -1,0 +1,142 @@
+//! Memory that is short: refused with an estimate and the field to change, or ended with a message; never an abort.
+#![cfg(unix)]
+
+use crate::common::root;
+use assert_cmd::cargo::cargo_bin;
+use serde_json::Value;
+use std::path::Path;
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+/// Runs a tool with so many KiB of address space, in `directory`.
+fn limited(kib: u32, directory: &Path, tool: &str, arguments: &[&str]) -> Output {
+    let mut command = Command::new("sh");
+    command.arg("-c").arg(format!("ulimit -v {kib}; exec \"$0\" \"$@\""));
+    command.arg(cargo_bin(tool)).args(arguments).current_dir(directory).output().unwrap()
+}
+
+fn model(name: &str) -> String {
+    root().join("models").join(format!("{name}.json")).display().to_string()
+}
+
+/// A zero too many in the numbers of cells.
+#[test]
+fn a_typo_in_the_grid_is_refused_by_field() {
+    let scratch = TempDir::new().unwrap();
+    let spacecraft = model("spacecraft_disaligned");
+    for (cells, kib, what) in [
+        ("[140,60,140,60]", 6_000_000, "the cells of the partition"),
+        ("[40,30,40,30]", 3_000_000, "the enabled actions"),
+    ] {
+        let set = format!("/partition/cells={cells}");
+        let output =
+            limited(kib, scratch.path(), "dynabs-compile", &[&spacecraft, "--dry-run", "--set", &set]);
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{cells}: {error}");
+        for part in ["/partition/cells: ", what, "MiB", "the limit of this process"] {
+            assert!(error.contains(part), "{cells}: {part}: {error}");
+        }
+    }
+}
+
+#[test]
+fn many_samples_are_refused_by_field() {
+    let scratch = TempDir::new().unwrap();
+    let room = model("room_temperature");
+    let sets = ["--dry-run", "--set", "/noise/count=10000000"];
+    let output = limited(200_000, scratch.path(), "dynabs-compile", &[&[&*room], &sets[..]].concat());
+    let error = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{error}");
+    assert!(error.contains("/noise/count: found samples that would take about"), "{error}");
+}
+
+/// What is expected to be needed is shown before anything is written.
+#[test]
+fn a_dry_run_shows_what_it_takes() {
+    let scratch = TempDir::new().unwrap();
+    let double_integrator = model("double_integrator");
+    let output = limited(2_000_000, scratch.path(), "dynabs-compile", &[&double_integrator, "--dry-run"]);
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let line = text.lines().find(|line| line.starts_with("  memory ")).unwrap_or_else(|| panic!("{text}"));
+    assert!(
+        line.contains("the enabled actions") && line.contains("available (the limit of this process"),
+        "{line}"
+    );
+    let arguments = [&double_integrator, "--dry-run", "--json"];
+    let output = limited(2_000_000, scratch.path(), "dynabs-compile", &arguments);
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let needs = json["memory"]["needs"].as_array().unwrap();
+    let sum: u64 = needs.iter().map(|need| need["bytes"].as_u64().unwrap()).sum();
+    assert_eq!(json["memory"]["bytes"].as_u64(), Some(sum));
+    assert!(json["memory"]["available"].as_u64().unwrap() < 2_000_000 << 10);
+}
+
+/// Whatever the limit, every command does its work or says what stopped it, and leaves nothing half done.
+#[test]
+fn no_command_aborts() {
+    let scratch = TempDir::new().unwrap();
+    let (tool, check) = ("dynabs-compile", "dynabs-check");
+    let double_integrator = model("double_integrator");
+    let input = ["--set", "/input/lower=[-6]", "--set", "/input/upper=[6]"];
+    let compile = |further: &[&'static str]| {
+        let mut arguments = vec![double_integrator.clone(), "-q".into()];
+        arguments.extend(input.iter().chain(further).map(|&text| text.to_owned()));
+        arguments
+    };
+    let own = |arguments: &[&str]| arguments.iter().map(|&text| text.to_owned()).collect::<Vec<_>>();
+    let run = |kib, tool, arguments: &[String]| {
+        let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        limited(kib, scratch.path(), tool, &arguments)
+    };
+    let prepared = [
+        (tool, compile(&["-o", "base", "--format", "prism,drn,umb"])),
+        (check, own(&["solve", "base", "-q", "--certificate", "base.cert"])),
+    ];
+    for (tool, arguments) in prepared {
+        let output = run(8_000_000, tool, &arguments);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    let reach = r#"Pmaxmin=? [ F "reached" ]"#;
+    let commands = [
+        (tool, compile(&["-o", "out", "--format", "prism,drn,umb", "--solve"]), "out"),
+        (tool, compile(&["-o", "out", "--encoding", "rows", "--format", "prism,umb"]), "out"),
+        (tool, compile(&["-o", "out", "--prune"]), "out"),
+        (check, own(&["solve", "base", "--values", "out", "-p", reach]), "out"),
+        (check, own(&["solve", "base/model.tra", "-p", reach]), "out"),
+        (check, own(&["solve", "base/model.drn", "-p", reach]), "out"),
+        (check, own(&["solve", "base/model.umb", "-p", reach]), "out"),
+        (check, own(&["solve", "base", "--certificate", "out"]), "out"),
+        (check, own(&["verify", "base.cert", "base"]), "out"),
+        (check, own(&["convert", "base/model.tra", "out.umb"]), "out.umb"),
+        (check, own(&["report", "base", "-o", "out", "--runs", "100"]), "out"),
+        (check, own(&["simulate", "base", "--runs", "100"]), "out"),
+        (check, own(&["controller", "base", "-o", "out.c"]), "out.c"),
+        (check, own(&["diff", "base", "base"]), "out"),
+    ];
+    let mut ended = 0;
+    // With less than this, the system cannot even load the programs.
+    let starts =
+        |kib: &u32| [tool, check].iter().all(|tool| run(*kib, tool, &own(&["--version"])).status.success());
+    let least = (10_000..200_000).step_by(2000).find(starts).unwrap();
+    for kib in [1000, 4000, 9000, 20_000, 70_000].map(|more| least + more) {
+        for (tool, arguments, written) in &commands {
+            let output = run(kib, tool, arguments);
+            let error = String::from_utf8_lossy(&output.stderr).into_owned();
+            let code = output.status.code();
+            let path = scratch.path().join(written);
+            match code {
+                Some(0 | 1) => {}
+                Some(2 | 4) => {
+                    ended += 1;
+                    assert!(!error.is_empty() && !path.exists(), "{kib} KiB: {arguments:?}: {error}");
+                }
+                _ => panic!("{kib} KiB: {arguments:?}: {code:?} {error}"),
+            }
+            for path in [path, scratch.path().join("out.props")] {
+                let _ = std::fs::remove_dir_all(&path);
+                let _ = std::fs::remove_file(&path);
+            }
+        }
+    }
+    assert!(ended > 10, "{ended}");
+}
