@@ -22,7 +22,12 @@ fn slow_transitions(text: &str) -> Transitions {
         let mut fields = fields.into_iter();
         let mut field = || fields.next().unwrap();
         let (source, choice, destination) = (field(), field(), field());
-        let interval = field().trim_matches(['[', ']']);
+        // A blank may follow the comma.
+        let mut interval = field().to_owned();
+        if interval.ends_with(',') {
+            interval += field();
+        }
+        let interval = interval.trim_matches(['[', ']']);
         let (lower, upper) = interval.split_once(',').unwrap_or((interval, interval));
         let key = (source.parse().unwrap(), choice.parse().unwrap(), destination.parse().unwrap());
         (key, (lower.parse().unwrap(), upper.parse().unwrap()))
