@@ -299,12 +299,8 @@ fn c_code_equals_the_library() {
 }
 
 #[test]
-fn a_horizon_beyond_c_is_refused() {
-    let closed = Loop::of("room_temperature", &["/task/horizon=1099511627776"]);
-    assert!(
-        c_source(&closed.controller, &closed.problem, "c.c")
-            .unwrap_err()
-            .to_string()
-            .contains("1099511627776")
-    );
+fn a_horizon_beyond_properties_and_c_is_refused() {
+    let sets = ["/task/horizon=1099511627776".to_owned()];
+    let refused = crate::common::problem("room_temperature", &sets).unwrap_err().to_string();
+    assert!(refused.contains("/task/horizon") && refused.contains("1099511627776"), "{refused}");
 }

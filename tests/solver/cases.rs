@@ -158,10 +158,10 @@ fn a_policy_says_what_to_do_after_so_many_steps() {
 
 #[test]
 fn rows_that_only_rounding_makes_impossible_are_bracketed_like_their_neighbours() {
-    // As decimals the lower bounds exceed 1 by 2e-16, the upper bounds miss it by 1e-16.
+    // As decimals the lower bounds exceed 1 by 1e-16, the upper bounds miss it by 1e-16.
     let m = model(
         &[
-            vec![(1, 0.3333333333333334, 0.5), (2, 0.3333333333333334, 0.5), (3, 0.3333333333333334, 0.5)],
+            vec![(1, 0.3333333333333334, 0.5), (2, 0.3333333333333333, 0.5), (3, 0.3333333333333334, 0.5)],
             vec![(0, 0.0, 0.3333333333333333), (1, 0.1, 0.3333333333333333), (2, 0.0, 0.3333333333333333)],
         ],
         &[Some(vec![(0, 0)]), Some(vec![(1, 1)]), None, None],
