@@ -85,43 +85,65 @@ impl Parser<'_> {
 
     fn numbers<'n>(&self, operands: impl IntoIterator<Item = &'n Node>) -> Result<Type> {
         for operand in operands {
-            match self.infer(operand)? {
-                Type::Number | Type::Either => {}
-                Type::Path => return Err(self.error_at(operand.span, unsupported::PATH_OUTSIDE)),
-                Type::Formula => return Err(self.wrong_kind(operand, NUMBER)),
-            }
+            self.as_number(operand, self.infer(operand)?)?;
         }
         Ok(Type::Number)
     }
 
+    /// A node of the type that was inferred, where a number is meant.
+    fn as_number(&self, node: &Node, inferred: Type) -> Result<()> {
+        match inferred {
+            Type::Number | Type::Either => Ok(()),
+            Type::Path => Err(self.error_at(node.span, unsupported::PATH_OUTSIDE)),
+            Type::Formula => Err(self.wrong_kind(node, NUMBER)),
+        }
+    }
+
     /// A formula that is no path formula.
     fn state_formula(&self, node: &Node) -> Result<()> {
-        match self.logical([node])? {
+        self.as_state_formula(node, self.infer(node)?)
+    }
+
+    /// A node of the type that was inferred, where a formula that is no path formula is meant.
+    fn as_state_formula(&self, node: &Node, inferred: Type) -> Result<()> {
+        match inferred {
+            Type::Number => Err(self.wrong_kind(node, FORMULA)),
             Type::Path => Err(self.error_at(node.span, unsupported::PATH_OUTSIDE)),
-            _ => Ok(()),
+            Type::Formula | Type::Either => Ok(()),
         }
     }
 
     /// `=` and `!=` also compare formulas.
     fn comparison(&self, comparison: Relation, left: &Node, right: &Node) -> Result<()> {
         let is_equality = matches!(comparison, Relation::Equal | Relation::NotEqual);
-        if is_equality && [self.infer(left)?, self.infer(right)?].contains(&Type::Formula) {
-            self.state_formula(left)?;
-            return self.state_formula(right);
+        if !is_equality {
+            return self.numbers([left, right]).map(drop);
         }
-        self.numbers([left, right]).map(drop)
+        // Inferred once: what nests would take twice as long with every level.
+        let types = (self.infer(left)?, self.infer(right)?);
+        if matches!(types, (Type::Formula, _) | (_, Type::Formula)) {
+            self.as_state_formula(left, types.0)?;
+            return self.as_state_formula(right, types.1);
+        }
+        self.as_number(left, types.0)?;
+        self.as_number(right, types.1)
     }
 
     fn conditional(&self, [condition, then, otherwise]: &[Node; 3]) -> Result<Type> {
         self.state_formula(condition)?;
-        match (self.infer(then)?, self.infer(otherwise)?) {
+        let types = (self.infer(then)?, self.infer(otherwise)?);
+        match types {
             (Type::Formula, _) | (_, Type::Formula) => {
-                self.state_formula(then)?;
-                self.state_formula(otherwise)?;
+                self.as_state_formula(then, types.0)?;
+                self.as_state_formula(otherwise, types.1)?;
                 Ok(Type::Formula)
             }
             (Type::Either, Type::Either) => Ok(Type::Either),
-            _ => self.numbers([then, otherwise]),
+            _ => {
+                self.as_number(then, types.0)?;
+                self.as_number(otherwise, types.1)?;
+                Ok(Type::Number)
+            }
         }
     }
 
