@@ -124,7 +124,7 @@ proptest! {
             prop_assert_eq!(transitions_of(&model), slow_transitions(&tra));
             let plain = |text: &str| {
                 let kept: String = text.lines().filter(|line| !fields(line).is_empty()).collect();
-                kept.replace([' ', '\t', '\r'], "").replace(",)", ")").replace("-0", "0")
+                kept.replace("True", "true").replace("False", "false").replace([' ', '\t', '\r'], "").replace(",)", ")").replace("-0", "0")
             };
             prop_assert_eq!(plain(&states_of(&model)), plain(&sta));
             prop_assert_eq!(labels_of(&model), slow_labels(&lab));
