@@ -5,7 +5,7 @@
 //!
 //! # The file
 //!
-//! One line of JSON ([`Header`](header::Header)) with the property, the SHA-256 of the native model, how the computation ended
+//! One line of JSON (the header) with the property, the SHA-256 of the native model, how the computation ended
 //! and how many of everything there are; then arrays of little-endian numbers without gaps, for `n` states, `m` changes of the
 //! policy and `h` earlier steps:
 //!

@@ -9,7 +9,7 @@ use std::io::{self, Write};
 /// Writes a model in bmdp-tool's format.
 ///
 /// Every state gets as many actions as the state with the most, the last of its own repeated: that changes no value. The
-/// states to be reached are those with the label `reach`, or the first of [`GOALS`] that the model has.
+/// states to be reached are those with the label `reach`, or the first of `reached`, `goal` and `target` that the model has.
 #[derive(Debug)]
 pub struct BmdpWriter<'a> {
     model: &'a IntervalMdp,
