@@ -175,7 +175,9 @@ proptest! {
         let images = images(&mode, &feedback, &grid, false, &[nominal.to_vec()]);
         let center: Vec<f64> = (0..2).map(|j| to_f64(&grid.axes()[j].center(cell[j]))).collect();
         let mut reached = [(i64::MAX, i64::MIN); 2];
-        for point in &inside {
+        // What is monotone reaches its extremes at corners of the cell and ends of the parameter.
+        let corners = (0..8).map(|bits| [0, 1, 2].map(|j| f64::from(bits >> j & 1)));
+        for point in inside.iter().copied().chain(corners) {
             let x: Vec<f64> = (0..2).map(|j| {
                 let face = to_f64(&grid.axes()[j].face(cell[j]));
                 face + point[j] * to_f64(grid.axes()[j].width())
