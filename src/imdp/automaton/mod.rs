@@ -22,14 +22,12 @@ mod checks;
 mod dfa;
 mod finite;
 mod formulas;
-mod hoa;
 mod ltl;
 mod run;
 mod text;
 
 pub(crate) use checks::Condition;
 pub use dfa::{Aim, Dfa};
-pub use hoa::{Hoa, HoaError};
 pub use ltl::{Ltl, LtlError};
 pub(crate) use run::Automaton;
 pub use text::FormulaError;
