@@ -68,8 +68,8 @@ impl Dfa {
         Ok(Self { propositions: propositions as u32, start: 0, next, accepting })
     }
 
-    /// An automaton with these states; transitions by state and letter.
-    pub(super) fn from_parts(propositions: u32, start: u32, next: Vec<u32>, accepting: Vec<bool>) -> Self {
+    /// An automaton from its parts: `next[state · 2ᵏ + letter]` and whether each state accepts.
+    pub fn from_parts(propositions: u32, start: u32, next: Vec<u32>, accepting: Vec<bool>) -> Self {
         Self { propositions, start, next, accepting }
     }
 
@@ -106,27 +106,6 @@ impl Dfa {
     /// Whether a state is never left.
     pub fn is_sink(&self, state: u32) -> bool {
         (0..self.letters()).all(|letter| self.step(state, letter) == state)
-    }
-
-    /// What the automaton asks of infinite words, if it can be decided by a prefix: to come to an accepting state if these are
-    /// never left, to stay in them if the others are never left.
-    pub fn aim(&self) -> Option<Aim> {
-        let closed = |kind: bool| {
-            (0..self.num_states())
-                .filter(|&state| self.accepts(state) == kind && self.is_reachable(state))
-                .all(|state| (0..self.letters()).all(|letter| self.accepts(self.step(state, letter)) == kind))
-        };
-        if closed(true) {
-            Some(Aim::Reach)
-        } else if closed(false) {
-            Some(Aim::Stay)
-        } else {
-            None
-        }
-    }
-
-    fn is_reachable(&self, state: u32) -> bool {
-        self.reachable().contains(&state)
     }
 
     /// The states that words lead to, in the order in which they are met.
@@ -229,7 +208,6 @@ mod tests {
         assert_eq!(last, Dfa::from_parts(1, 0, vec![0, 1, 0, 0], vec![false, true]));
         let reach = doubled().minimal(Aim::Reach);
         assert_eq!(reach, Dfa::from_parts(1, 0, vec![0, 1, 1, 1], vec![false, true]));
-        assert_eq!((doubled().aim(), reach.aim()), (None, Some(Aim::Reach)));
     }
 
     #[test]
@@ -238,6 +216,5 @@ mod tests {
         let dfa = Dfa::from_parts(1, 2, vec![1, 0, 0, 0, 1, 0], vec![true, false, false]);
         let stay = dfa.minimal(Aim::Stay);
         assert_eq!(stay, Dfa::from_parts(1, 0, vec![1, 0, 1, 1], vec![true, false]));
-        assert_eq!(stay.aim(), Some(Aim::Stay));
     }
 }
