@@ -183,7 +183,8 @@ fn automata_from_files_say_what_the_formula_says() {
 fn products_keep_decimals_to_the_last_digit() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("m.tra");
-    std::fs::write(&path, "2 2 3\n0 0 0 [0.5,0.99999999999999999999] a\n0 0 1 [0,0.5] a\n1 0 1 [1,1] a\n").unwrap();
+    std::fs::write(&path, "2 2 3\n0 0 0 [0.5,0.99999999999999999999] a\n0 0 1 [0,0.5] a\n1 0 1 [1,1] a\n")
+        .unwrap();
     std::fs::write(path.with_extension("lab"), "0=\"init\" 1=\"deadlock\" 2=\"good\"\n0: 0 2\n").unwrap();
     let model = prism::import(&path, None, Some(&path.with_extension("lab"))).unwrap().model;
     let again = compound("Pmaxmax=? [ G (F \"good\") ]");
