@@ -214,23 +214,23 @@ impl Product {
     /// What is earned in the product, where nothing is decided yet; `model` is the one that it was made of.
     pub(super) fn rewards(&self, model: &IntervalMdp, rewards: &RewardStructure) -> RewardStructure {
         let mut own = RewardStructure::new(&rewards.name);
-        own.states = self.pairs.iter().map(|&(state, _)| rewards.of_state(state as usize)).collect();
+        own.states = self.pairs.iter().map(|&(state, _)| rewards.of_state(state.index())).collect();
         let of_choice = |origin: &Option<u64>| origin.map_or(0.0, |choice| rewards.of_choice(choice));
         own.choices = self.origins.iter().map(of_choice).collect();
         let mut choice = 0u64;
         for (product, &(state, _)) in (0..).zip(&self.pairs) {
-            if self.model.choices().is_absorbing(product) {
+            if self.model.choices().is_absorbing(StateId(product)) {
                 choice += 1;
                 continue;
             }
             let of_model: Vec<RowId> = model.choices().rows(state).collect();
-            for (number, row) in self.model.choices().rows(product).enumerate() {
+            for (number, row) in self.model.choices().rows(StateId(product)).enumerate() {
                 let of_branches =
                     self.origins[choice as usize].and_then(|origin| rewards.branches.get(&origin));
                 if let (Some(of_branches), Some(&original)) = (of_branches, of_model.get(number)) {
                     let original = model.rows().row(original);
                     let earned = |successor: &StateId| {
-                        let (state, _) = self.pairs[*successor as usize];
+                        let (state, _) = self.pairs[successor.index()];
                         original
                             .successors
                             .binary_search(&state)

@@ -189,5 +189,5 @@ fn products_keep_decimals_to_the_last_digit() {
     let model = prism::import(&path, None, Some(&path.with_extension("lab"))).unwrap().model;
     let again = compound("Pmaxmax=? [ G (F \"good\") ]");
     let evaluation = Evaluation::new(&model, &again, None, &SolverOptions::default()).unwrap();
-    assert_eq!(evaluation.bounds(0), Some((0.0, 0.0)));
+    assert_eq!(evaluation.bounds(StateId(0)), Some((0.0, 0.0)));
 }
