@@ -1,7 +1,7 @@
 //! Deterministic automata whose states are all there.
 
 use super::hoa::{AcceptanceCondition, Guard};
-use super::{Acceptor, Condition, LtlError};
+use super::{Acceptor, Aim, Condition, Dfa, LtlError};
 use crate::solver::strong_components;
 use std::collections::{HashMap, HashSet};
 
@@ -94,13 +94,22 @@ impl DeterministicAutomaton {
     /// From which states some run satisfies one of the conditions, given whether those do that take an edge which is not
     /// listed.
     fn satisfying(&self, conditions: &[Condition], of_sink: bool) -> Vec<bool> {
-        let mut found = vec![false; self.edges.len()];
+        let mut found = self.cycles(conditions, |_| true);
         if let Some(sink) = found.last_mut() {
             *sink = of_sink;
         }
+        self.leading_to(found)
+    }
+
+    /// Which states, of those to consider, are on a cycle of them that satisfies one of the conditions.
+    fn cycles(&self, conditions: &[Condition], considered: impl Fn(u32) -> bool) -> Vec<bool> {
+        let mut found = vec![false; self.edges.len()];
         for condition in conditions {
-            let stays = |edge: &&Edge| !condition.finitely.iter().any(|&set| self.is_in(edge.marks, set));
-            let components = strong_components(self.edges.len(), 0..self.edges.len(), |state, out| {
+            let stays = |edge: &&Edge| {
+                considered(edge.target) && !condition.finitely.iter().any(|&set| self.is_in(edge.marks, set))
+            };
+            let states = (0..self.edges.len()).filter(|&state| considered(state as u32));
+            let components = strong_components(self.edges.len(), states, |state, out| {
                 out.extend(self.edges[state].iter().filter(stays).map(|edge| edge.target));
             });
             for component in components {
@@ -115,7 +124,32 @@ impl DeterministicAutomaton {
                 component.iter().for_each(|&state| found[state as usize] |= is_met);
             }
         }
-        self.leading_to(found)
+        found
+    }
+
+    /// The minimal automaton for finite words, if a prefix decides every word: either all that are accepted, or all that
+    /// are not.
+    ///
+    /// # Errors
+    /// [`LtlError::Undecided`] if there is none, another [`LtlError`] if it is too large.
+    pub fn on_prefixes(&self) -> Result<(Dfa, Aim), LtlError> {
+        let alternatives = |condition: &AcceptanceCondition| condition.alternatives().unwrap_or_default();
+        let undecided = |state: u32| self.decided(state).is_none();
+        let some = |condition| self.cycles(&alternatives(condition), undecided).contains(&true);
+        let aim = if !some(&self.acceptance) {
+            Aim::Reach
+        } else if !some(&self.acceptance.negation()) {
+            Aim::Stay
+        } else {
+            return Err(LtlError::Undecided);
+        };
+        let accepts = |&state: &u32| match aim {
+            Aim::Stay => self.decided(state) != Some(false),
+            Aim::Reach | Aim::End => self.decided(state) == Some(true),
+        };
+        let step = |&state: &u32, letter| Ok(self.step(state, letter));
+        let dfa = Dfa::explored(self.propositions.len(), self.start, step, accepts)?;
+        Ok((dfa.minimal(aim), aim))
     }
 
     /// The states from which some run meets one of these.

@@ -23,18 +23,23 @@
 mod acceptor;
 mod checks;
 mod deterministic;
+mod dfa;
+mod finite;
 mod formulas;
 mod hoa;
 mod ltl;
 mod run;
+mod text;
 
 pub use deterministic::DeterministicAutomaton;
+pub use dfa::{Aim, Dfa};
 pub use hoa::{HoaError, HoaErrorKind, read_hoa};
 pub use ltl::{Ltl, LtlError};
 
 pub(crate) use acceptor::{Acceptor, Condition};
 pub(crate) use deterministic::MarkedAutomaton;
 pub(crate) use run::Automaton;
+pub use text::FormulaError;
 
 #[cfg(test)]
 mod tests;

@@ -81,6 +81,18 @@ fn what_is_decided_is_known() {
 }
 
 #[test]
+fn prefixes_decide_what_is_safe_or_cosafe() {
+    let (dfa, aim) = read_hoa(UNTIL).unwrap().on_prefixes().unwrap();
+    assert_eq!((dfa.num_states(), aim), (3, Aim::Reach));
+    assert!(dfa.accepts(dfa.step(dfa.step(dfa.start(), 1), 3)));
+    let safe = "HOA: v1 Start: 0 AP: 1 \"bad\" Acceptance: 0 t --BODY-- State: 0 [!0] 0 --END--";
+    let (dfa, aim) = read_hoa(safe).unwrap().on_prefixes().unwrap();
+    assert_eq!((dfa.num_states(), aim), (2, Aim::Stay));
+    assert!(dfa.accepts(dfa.step(dfa.start(), 0)) && !dfa.accepts(dfa.step(dfa.start(), 1)));
+    assert_eq!(read_hoa(AGAIN).unwrap().on_prefixes(), Err(LtlError::Undecided));
+}
+
+#[test]
 fn files_that_are_no_deterministic_automata_are_refused() {
     let replaced = |from: &str, to: &str| {
         let text = AGAIN.replace(from, to);
