@@ -2,7 +2,7 @@
 
 use super::expression::Evaluator;
 use super::{EvaluationError, Truth};
-use crate::automaton::{Automaton, Condition, Ltl};
+use crate::automaton::{Acceptor, Automaton, Condition, Ltl};
 use crate::model::{
     ActionNames, ChoicesBuilder, IntervalMdp, Labels, Parts, RowId, RowRange, Rows, StateId, StateSet,
     StateVariables, require_memory,
@@ -30,13 +30,23 @@ impl Evaluator<'_> {
             let negation = Ltl::Not(Box::new(formula.clone()));
             return Ok(self.omega(&negation, propositions, resolution.flipped())?.complement());
         }
+        self.accepted(&mut Automaton::new(formula)?, propositions, resolution)
+    }
+
+    /// Bounds on the probability of a run that is accepted; the policy maximises.
+    pub(super) fn accepted(
+        &mut self,
+        acceptor: &mut dyn Acceptor,
+        propositions: &[Truth],
+        resolution: Resolution,
+    ) -> Result<ValueBounds, EvaluationError> {
         let mut letters = vec![0u64; self.model.num_states()];
         for (index, proposition) in propositions.iter().enumerate() {
             for state in proposition.decided()?.ones() {
                 letters[state] |= 1 << (index % 64);
             }
         }
-        let product = Product::new(self.model, &mut Automaton::new(formula)?, &letters)?;
+        let product = Product::new(self.model, acceptor, &letters)?;
         let all = {
             let mut all = StateSet::with_capacity(product.model.num_states());
             all.insert_range(..);
@@ -71,7 +81,7 @@ struct Product {
 
 /// Puts states of the model and of the automaton together, as they are met.
 struct Pairs<'a> {
-    automaton: &'a mut Automaton,
+    automaton: &'a mut dyn Acceptor,
     letters: &'a [u64],
     ids: HashMap<(StateId, u32), StateId>,
     pairs: Vec<(StateId, u32)>,
@@ -94,7 +104,11 @@ impl Pairs<'_> {
 }
 
 impl Product {
-    fn new(model: &IntervalMdp, automaton: &mut Automaton, letters: &[u64]) -> Result<Self, EvaluationError> {
+    fn new(
+        model: &IntervalMdp,
+        automaton: &mut dyn Acceptor,
+        letters: &[u64],
+    ) -> Result<Self, EvaluationError> {
         let mut pairs = Pairs { automaton, letters, ids: HashMap::new(), pairs: vec![] };
         let starts = (0..model.num_states() as StateId)
             .map(|state| pairs.enter(state, 0))

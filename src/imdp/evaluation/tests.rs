@@ -138,3 +138,35 @@ fn what_does_not_fit_is_named() {
         assert!(message.contains(words), "{text}: {message}");
     }
 }
+
+#[test]
+fn automata_from_files_say_what_the_formula_says() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("again.hoa");
+    let text = "HOA: v1\nStates: 1\nStart: 0\nAP: 1 \"goal1\"\nAcceptance: 1 Inf(0)\n--BODY--\nState: 0\n[0] 0 {0}\n[!0] 0\n--END--\n";
+    std::fs::write(&file, text).unwrap();
+    let file = file.display().to_string();
+    for resolution in ["maxmin", "maxmax", "minmin", "minmax"] {
+        for (mapping, negation) in [("", ""), (", \"goal1\" <- s=4|s=6", ""), (", \"goal1\" <- s<3", "!")] {
+            let formula = mapping.split("<- ").nth(1).unwrap_or("\"goal1\"");
+            let of_file = evaluate(&format!("P{resolution}=? [ {negation}(HOA: {{\"{file}\"{mapping}}}) ]"));
+            let of_formula = evaluate(&format!("P{resolution}=? [ {negation}(G (F ({formula}))) ]"));
+            for state in model().initial().ones() {
+                let state = state as crate::model::StateId;
+                assert_eq!(of_file.bounds(state), of_formula.bounds(state), "{resolution} {mapping}");
+            }
+        }
+    }
+    let fails = |text: &str| {
+        let text = text.replace("FILE", &file);
+        Evaluation::new(&model(), &compound(&text), None, &SolverOptions::default()).unwrap_err().to_string()
+    };
+    let unknown = fails("Pmaxmin=? [ HOA: {\"FILE\", \"a\" <- s=1} ]");
+    assert!(unknown.contains("found no proposition \"a\"; expected one of \"goal1\""), "{unknown}");
+    assert!(fails("Pmaxmin=? [ HOA: {\"nowhere.hoa\"} ]").contains("nowhere.hoa: "));
+    std::fs::write(directory.path().join("again.hoa"), text.replace("goal1", "reached")).unwrap();
+    assert!(
+        fails("Pmaxmin=? [ HOA: {\"FILE\"} ]")
+            .contains("found the proposition \"reached\", which is no label")
+    );
+}

@@ -65,6 +65,10 @@ impl Parser<'_> {
                 }
                 Type::Path
             }
+            NodeKind::Automaton(path) => {
+                path.propositions.iter().try_for_each(|(_, formula)| self.state_formula(formula))?;
+                Type::Path
+            }
             NodeKind::Operator(operator) => self.operator_type(operator)?,
             NodeKind::Filter(filter) => self.filter_type(filter)?,
         })
@@ -153,6 +157,7 @@ impl Parser<'_> {
                 if self.infer(path)? != Type::Path {
                     return Err(self.wrong_kind(path, PATH));
                 }
+                self.no_automaton_inside(path)?;
             }
             Measured::Reward(structure, path) => {
                 if let Structure::Number(number) = structure {
@@ -167,6 +172,24 @@ impl Parser<'_> {
                 self.threshold(threshold, matches!(operator.measured, Measured::Probability(_)))?;
                 Ok(Type::Formula)
             }
+        }
+    }
+
+    /// An automaton is a path formula as a whole, or its negation.
+    fn no_automaton_inside(&self, path: &Node) -> Result<()> {
+        match &path.kind {
+            NodeKind::Automaton(_) => Ok(()),
+            NodeKind::Not(operand) => self.no_automaton_inside(operand),
+            kind => kind.children().into_iter().try_for_each(|child| self.no_automaton(child)),
+        }
+    }
+
+    fn no_automaton(&self, node: &Node) -> Result<()> {
+        match &node.kind {
+            NodeKind::Automaton(_) => Err(self.error_at(node.span, unsupported::AUTOMATON)),
+            // What stands in its brackets has been looked at.
+            NodeKind::Operator(_) => Ok(()),
+            kind => kind.children().into_iter().try_for_each(|child| self.no_automaton(child)),
         }
     }
 
