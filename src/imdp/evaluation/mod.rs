@@ -5,6 +5,7 @@
 //! then on, rounded outwards in every operation.
 
 mod automaton;
+mod cosafe;
 mod directions;
 mod error;
 mod exact;

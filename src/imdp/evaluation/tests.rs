@@ -58,6 +58,13 @@ fn numbers_have_their_values() {
         ("R{\"time\"}minmin=? [ C, discount=0.5 ]", 3, 2.0),
         ("R{\"time\"}maxmin=? [ C<=3, discount=1/2 ]", 2, 1.75),
         ("R{\"time\"}minmin=? [ I=2 ]", 0, 1.0),
+        // Until a co-safe formula holds.
+        ("R{\"time\"}minmin=? [ X (F \"goal2\") ]", 0, 1.1 + 0.05 * 5.0 / 3.0),
+        ("R{\"time\"}minmax=? [ F ((s=5) & (F (s=4))) ]", 4, 2.0),
+        ("R{\"go\"}minmin=? [ X (F \"goal2\") ]", 6, 6.0),
+        ("R{\"go\"}minmax=? [ (F (s=6)) & !(G (s=6)) ]", 6, 12.0),
+        ("R{\"go\"}maxmin=? [ X (F \"goal2\") ]", 6, f64::INFINITY),
+        ("R{\"time\"}minmin=? [ X (X (s=3)) ]", 3, 2.0),
         ("Pmaxmin=? [ G F \"goal1\" ]", 0, 0.5),
         ("Pmaxmax=? [ (G !\"hazard\") & (G F \"goal1\") ]", 0, 0.15),
         ("Pminmin=? [ !((G !\"hazard\") & (G F \"goal1\")) ]", 0, 0.85),
@@ -169,4 +176,18 @@ fn automata_from_files_say_what_the_formula_says() {
         fails("Pmaxmin=? [ HOA: {\"FILE\"} ]")
             .contains("found the proposition \"reached\", which is no label")
     );
+}
+
+/// Twenty nines are not 1, though the nearest double is: what stays for ever as doubles leaves in the end.
+#[test]
+fn products_keep_decimals_to_the_last_digit() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("m.tra");
+    std::fs::write(&path, "2 2 3\n0 0 0 [0.5,0.99999999999999999999] a\n0 0 1 [0,0.5] a\n1 0 1 [1,1] a\n")
+        .unwrap();
+    std::fs::write(path.with_extension("lab"), "0=\"init\" 1=\"deadlock\" 2=\"good\"\n0: 0 2\n").unwrap();
+    let model = prism::import(&path, None, Some(&path.with_extension("lab"))).unwrap().model;
+    let again = compound("Pmaxmax=? [ G (F \"good\") ]");
+    let evaluation = Evaluation::new(&model, &again, None, &SolverOptions::default()).unwrap();
+    assert_eq!(evaluation.bounds(0), Some((0.0, 0.0)));
 }
