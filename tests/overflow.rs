@@ -68,7 +68,7 @@ fn promises_are_below_the_truth_of_their_samples() {
         ("levels", vec![], &[5.000000001][..], true, 0.0),
     ];
     for (name, sets, targets, last_is_unsafe, expected) in cases {
-        let problem = document(name, sets).problem().unwrap();
+        let problem = document(name, &sets).problem().unwrap();
         let truth = truth(&problem, targets, |cell| cell == 9 && last_is_unsafe);
         assert!((truth - expected).abs() < 1e-4, "{name}: {truth}");
         let promised = promise(&problem).unwrap();
