@@ -25,7 +25,7 @@ impl Evaluator<'_> {
         let query = RewardQuery::Reach(&product.satisfied);
         let solution = solve_rewards(&product.model, &rewards, &query, resolution, &options)?;
         let values = self.note(solution);
-        let of_starts = |values: &[f64]| product.starts.iter().map(|&state| values[state as usize]).collect();
+        let of_starts = |values: &[f64]| product.starts.iter().map(|&state| values[state.index()]).collect();
         Ok(ValueBounds { lower: of_starts(&values.lower), upper: of_starts(&values.upper) })
     }
 }

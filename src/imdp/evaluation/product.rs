@@ -54,7 +54,7 @@ impl Evaluator<'_> {
             solve(&product.model, &Event::Until { safe: &all, goal, steps: None }, resolution, &options)
         };
         let lower = until(&lower_goal)?;
-        let of_starts = |values: &[f64]| product.starts.iter().map(|&state| values[state as usize]).collect();
+        let of_starts = |values: &[f64]| product.starts.iter().map(|&state| values[state.index()]).collect();
         if lower_goal == upper_goal {
             let values = self.note(lower);
             return Ok(ValueBounds { lower: of_starts(&values.lower), upper: of_starts(&values.upper) });
@@ -101,8 +101,8 @@ struct Pairs<'a> {
 impl Pairs<'_> {
     /// The pair that is met when the model moves to `state` while the automaton is in `memory`.
     fn enter(&mut self, state: StateId, memory: u32) -> Result<StateId, EvaluationError> {
-        let memory = self.automaton.step(memory, self.letters[state as usize])?;
-        let next = self.pairs.len() as StateId;
+        let memory = self.automaton.step(memory, self.letters[state.index()])?;
+        let next = StateId::from_index(self.pairs.len());
         let id = *self.ids.entry((state, memory)).or_insert(next);
         if id == next {
             self.pairs.push((state, memory));
@@ -121,7 +121,7 @@ impl Product {
         letters: &[u64],
     ) -> Result<Self, EvaluationError> {
         let mut pairs = Pairs { automaton, letters, ids: HashMap::new(), pairs: vec![] };
-        let starts = (0..model.num_states() as StateId)
+        let starts = StateId::first(model.num_states())
             .map(|state| pairs.enter(state, 0))
             .collect::<Result<Vec<_>, _>>()?;
         let mut rows = Rows::new();
@@ -145,8 +145,8 @@ impl Product {
                 false => model.choices().rows(state).map(Some).collect(),
             };
             for (row, number) in own.into_iter().zip(0u64..) {
-                origins.push(row.map(|_| first_choices[state as usize] + number));
-                let key = (row, if row.is_none() { state } else { 0 }, memory);
+                origins.push(row.map(|_| first_choices[state.index()] + number));
+                let key = (row, if row.is_none() { state } else { StateId(0) }, memory);
                 let id = match known.get(&key) {
                     Some(&id) => id,
                     None => {
@@ -174,7 +174,7 @@ impl Product {
         }
         let states = pairs.pairs.len();
         let mut initial = StateSet::with_capacity(states);
-        starts.iter().for_each(|&state| initial.insert(state as usize));
+        starts.iter().for_each(|&state| initial.insert(state.index()));
         let conditions = pairs.automaton.conditions().to_vec();
         let met = |check: usize| {
             let mut set = StateSet::with_capacity(states);
@@ -214,23 +214,23 @@ impl Product {
     /// What is earned in the product, where nothing is decided yet; `model` is the one that it was made of.
     pub(super) fn rewards(&self, model: &IntervalMdp, rewards: &RewardStructure) -> RewardStructure {
         let mut own = RewardStructure::new(&rewards.name);
-        own.states = self.pairs.iter().map(|&(state, _)| rewards.of_state(state as usize)).collect();
+        own.states = self.pairs.iter().map(|&(state, _)| rewards.of_state(state.index())).collect();
         let of_choice = |origin: &Option<u64>| origin.map_or(0.0, |choice| rewards.of_choice(choice));
         own.choices = self.origins.iter().map(of_choice).collect();
         let mut choice = 0u64;
         for (product, &(state, _)) in (0..).zip(&self.pairs) {
-            if self.model.choices().is_absorbing(product) {
+            if self.model.choices().is_absorbing(StateId(product)) {
                 choice += 1;
                 continue;
             }
             let of_model: Vec<RowId> = model.choices().rows(state).collect();
-            for (number, row) in self.model.choices().rows(product).enumerate() {
+            for (number, row) in self.model.choices().rows(StateId(product)).enumerate() {
                 let of_branches =
                     self.origins[choice as usize].and_then(|origin| rewards.branches.get(&origin));
                 if let (Some(of_branches), Some(&original)) = (of_branches, of_model.get(number)) {
                     let original = model.rows().row(original);
                     let earned = |successor: &StateId| {
-                        let (state, _) = self.pairs[*successor as usize];
+                        let (state, _) = self.pairs[successor.index()];
                         original
                             .successors
                             .binary_search(&state)

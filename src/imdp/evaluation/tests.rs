@@ -2,7 +2,7 @@
 
 use super::{Evaluation, Nature, Values};
 use crate::formats::prism;
-use crate::model::IntervalMdp;
+use crate::model::{IntervalMdp, StateId};
 use crate::property::{Compound, Definitions, Inquiry, Verdict, parse_inquiry};
 use crate::solver::SolverOptions;
 
@@ -93,7 +93,7 @@ fn numbers_have_their_values() {
         } else {
             format!("{text} + 0*Pmaxmax=? [ X true ]")
         };
-        let (lower, upper) = evaluate(&text).bounds(state).unwrap();
+        let (lower, upper) = evaluate(&text).bounds(StateId(state)).unwrap();
         let close = 2e-6 * value.clamp(1.0, 100.0);
         let holds = if value.is_finite() {
             lower <= value * (1.0 + 1e-15) + 1e-15 && value <= upper + 1e-15 && upper - lower <= close
@@ -120,7 +120,7 @@ fn formulas_hold_where_they_should() {
         let evaluation = evaluate(text);
         let Values::Truth(_) = &evaluation.values else { panic!("{text}") };
         let found: Vec<u32> =
-            (0..7).filter(|&state| evaluation.verdict(state) == Some(Verdict::Holds)).collect();
+            (0..7).filter(|&state| evaluation.verdict(StateId(state)) == Some(Verdict::Holds)).collect();
         assert_eq!(found, states, "{text}");
     }
 }
@@ -159,7 +159,7 @@ fn automata_from_files_say_what_the_formula_says() {
             let of_file = evaluate(&format!("P{resolution}=? [ {negation}(HOA: {{\"{file}\"{mapping}}}) ]"));
             let of_formula = evaluate(&format!("P{resolution}=? [ {negation}(G (F ({formula}))) ]"));
             for state in model().initial().ones() {
-                let state = state as crate::model::StateId;
+                let state = crate::model::StateId::from_index(state);
                 assert_eq!(of_file.bounds(state), of_formula.bounds(state), "{resolution} {mapping}");
             }
         }
@@ -189,5 +189,5 @@ fn products_keep_decimals_to_the_last_digit() {
     let model = prism::import(&path, None, Some(&path.with_extension("lab"))).unwrap().model;
     let again = compound("Pmaxmax=? [ G (F \"good\") ]");
     let evaluation = Evaluation::new(&model, &again, None, &SolverOptions::default()).unwrap();
-    assert_eq!(evaluation.bounds(0), Some((0.0, 0.0)));
+    assert_eq!(evaluation.bounds(StateId(0)), Some((0.0, 0.0)));
 }

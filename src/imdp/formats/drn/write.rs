@@ -61,7 +61,7 @@ impl RowTexts {
     }
 
     fn row(&self, row: RowId) -> &[u8] {
-        let row = row as usize;
+        let row = row.index();
         &self.text[row.checked_sub(1).map_or(0, |before| self.ends[before])..self.ends[row]]
     }
 }
@@ -129,7 +129,7 @@ impl<'a> DrnWriter<'a> {
         let choices = self.model.choices();
         let mut choice = 0;
         let mut text = String::new();
-        for state in 0..self.model.num_states() as StateId {
+        for state in StateId::first(self.model.num_states()) {
             text.clear();
             self.state_lines(state, &mut text);
             take(text.as_bytes())?;
@@ -174,7 +174,7 @@ impl<'a> DrnWriter<'a> {
             ModelKind::Idtmc => "DTMC",
         };
         let states = model.num_states();
-        let deadlocks = (0..states as StateId).filter(|&state| model.choices().is_deadlock(state)).count();
+        let deadlocks = StateId::first(states).filter(|&state| model.choices().is_deadlock(state)).count();
         let choices = model.size().choices + deadlocks as u64;
         let rewards: Vec<&str> = self.rewards.iter().map(|(name, _)| name.as_str()).collect();
         let rewards = rewards.join(" ");
@@ -192,7 +192,7 @@ impl<'a> DrnWriter<'a> {
         let _ = write!(text, "state {state}");
         self.earned(text, |rewards| rewards.of_state(state as usize));
         for (name, states) in &self.labels {
-            if states.contains(state as usize) {
+            if states.contains(state.index()) {
                 let _ = write!(text, " {name}");
             }
         }
