@@ -2,7 +2,7 @@
 
 use assert_cmd::Command;
 use imdp::formats::prism::import_combined;
-use imdp::model::IntervalMdp;
+use imdp::model::{IntervalMdp, StateId};
 use std::path::Path;
 
 /// Rewards of states, of choices (twice: with and without others), of branches, of an absorbing state and none at all; state
@@ -28,9 +28,9 @@ fn earned(model: &IntervalMdp) -> Vec<(String, Vec<Vec<f64>>)> {
     let of_structure = |structure: &imdp::model::RewardStructure| {
         let mut all = vec![];
         for state in 0..model.num_states() {
-            let lengths: Vec<usize> = match model.choices().is_absorbing(state as u32) {
+            let lengths: Vec<usize> = match model.choices().is_absorbing(StateId::from_index(state)) {
                 true => vec![1],
-                false => model.choices().rows(state as u32).map(|row| model.rows().row_len(row)).collect(),
+                false => model.choices().rows(StateId::from_index(state)).map(|row| model.rows().row_len(row)).collect(),
             };
             for (choice, length) in (first[state]..).zip(lengths) {
                 let of_choice = structure.of_state(state) + structure.of_choice(choice);

@@ -190,7 +190,7 @@ impl<'a> DrnWriter<'a> {
     fn state_lines(&self, state: StateId, text: &mut String) {
         // Writing to a string cannot fail.
         let _ = write!(text, "state {state}");
-        self.earned(text, |rewards| rewards.of_state(state as usize));
+        self.earned(text, |rewards| rewards.of_state(state.index()));
         for (name, states) in &self.labels {
             if states.contains(state.index()) {
                 let _ = write!(text, " {name}");

@@ -57,7 +57,7 @@ impl<'a> RewardFile<'a> {
         let (model, structure) = (self.model, self.structure);
         let is_mdp = model.kind() == ModelKind::Imdp;
         let (mut lines, mut count, mut choice) = (String::new(), 0u64, 0);
-        for state in 0..model.num_states() as StateId {
+        for state in StateId::first(model.num_states()) {
             let mut push = |number: usize, successor: StateId, position: usize, choice: u64| {
                 let (of_choice, of_branch) =
                     (structure.of_choice(choice), structure.of_branch(choice, position));

@@ -60,7 +60,7 @@ impl UmbWriter<'_> {
         // States without choices have one in the file that the model does not count; it earns nothing.
         let mut next = 0u64;
         self.for_each_choice(|state, row| {
-            let is_own = row.is_some() || !self.deadlocks.contains(state as usize);
+            let is_own = row.is_some() || !self.deadlocks.contains(state.index());
             let length = row.map_or(1, |row| self.model.rows().row_len(row));
             if entity == "choices" {
                 let value = if is_own { structure.of_choice(next) } else { 0.0 };
