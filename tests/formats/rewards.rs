@@ -30,7 +30,11 @@ fn earned(model: &IntervalMdp) -> Vec<(String, Vec<Vec<f64>>)> {
         for state in 0..model.num_states() {
             let lengths: Vec<usize> = match model.choices().is_absorbing(StateId::from_index(state)) {
                 true => vec![1],
-                false => model.choices().rows(StateId::from_index(state)).map(|row| model.rows().row_len(row)).collect(),
+                false => model
+                    .choices()
+                    .rows(StateId::from_index(state))
+                    .map(|row| model.rows().row_len(row))
+                    .collect(),
             };
             for (choice, length) in (first[state]..).zip(lengths) {
                 let of_choice = structure.of_state(state) + structure.of_choice(choice);
