@@ -27,7 +27,7 @@ fn earned(model: &IntervalMdp) -> Vec<(String, Vec<Vec<f64>>)> {
     let first = model.choices().first_choices();
     let of_structure = |structure: &imdp::model::RewardStructure| {
         let mut all = vec![];
-        for state in 0..model.num_states() {
+        for (state, &first) in first.iter().enumerate().take(model.num_states()) {
             let lengths: Vec<usize> = match model.choices().is_absorbing(StateId::from_index(state)) {
                 true => vec![1],
                 false => model
@@ -36,7 +36,7 @@ fn earned(model: &IntervalMdp) -> Vec<(String, Vec<Vec<f64>>)> {
                     .map(|row| model.rows().row_len(row))
                     .collect(),
             };
-            for (choice, length) in (first[state]..).zip(lengths) {
+            for (choice, length) in (first..).zip(lengths) {
                 let of_choice = structure.of_state(state) + structure.of_choice(choice);
                 all.push((0..length).map(|i| of_choice + structure.of_branch(choice, i)).collect());
             }
