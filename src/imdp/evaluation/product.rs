@@ -1,14 +1,14 @@
 //! Path formulas of all kinds: a model and a deterministic automaton, step by step together.
 
 use super::expression::Evaluator;
-use super::{EvaluationError, Truth};
+use super::{EvaluationError, Known, Truth};
 use crate::automaton::{Acceptor, Automaton, Condition, Ltl};
 use crate::model::{
     ActionNames, ChoicesBuilder, IntervalMdp, Labels, Parts, RowId, RowRange, Rows, StateId, StateSet,
     StateVariables, require_memory,
 };
 use crate::property::Resolution;
-use crate::solver::{Acceptance, Event, ValueBounds, accepting_states, solve};
+use crate::solver::{Acceptance, Event, accepting_states};
 use std::collections::HashMap;
 
 /// What a state of the product takes in memory.
@@ -24,7 +24,7 @@ impl Evaluator<'_> {
         formula: &Ltl,
         propositions: &[Truth],
         resolution: Resolution,
-    ) -> Result<ValueBounds, EvaluationError> {
+    ) -> Result<Known, EvaluationError> {
         if !resolution.policy_maximises() {
             // A policy that minimises one formula maximises its negation.
             let negation = Ltl::Not(Box::new(formula.clone()));
@@ -39,7 +39,7 @@ impl Evaluator<'_> {
         acceptor: &mut dyn Acceptor,
         propositions: &[Truth],
         resolution: Resolution,
-    ) -> Result<ValueBounds, EvaluationError> {
+    ) -> Result<Known, EvaluationError> {
         let mut letters = vec![0u64; self.model.num_states()];
         for (index, proposition) in propositions.iter().enumerate() {
             for state in proposition.decided()?.ones() {
@@ -55,18 +55,33 @@ impl Evaluator<'_> {
         let upper_goal = product.goal(true);
         let lower_goal = if resolution.nature_maximises() { upper_goal.clone() } else { product.goal(false) };
         let options = crate::solver::SolverOptions { policy: false, evidence: false, ..self.options };
-        let until = |goal| {
-            solve(&product.model, &Event::Until { safe: &all, goal, steps: None }, resolution, &options)
+        // Where values are wanted exactly, they are those of where runs begin.
+        let exactly = self.exactly.take();
+        self.exactly = exactly.as_ref().map(|wanted| {
+            let mut starts = StateSet::with_capacity(product.model.num_states());
+            wanted.ones().for_each(|state| starts.insert(product.starts[state] as usize));
+            starts
+        });
+        let until = |this: &mut Self, goal| {
+            let event = Event::Until { safe: &all, goal, steps: None };
+            this.solved((&product.model, &options), &event, 0, resolution)
         };
-        let lower = until(&lower_goal)?;
+        let lower = until(self, &lower_goal);
+        let upper = if lower_goal == upper_goal { None } else { Some(until(self, &upper_goal)) };
+        self.exactly = exactly;
+        let lower = lower?;
         let of_starts = |values: &[f64]| product.starts.iter().map(|&state| values[state as usize]).collect();
-        if lower_goal == upper_goal {
-            let values = self.note(lower);
-            return Ok(ValueBounds { lower: of_starts(&values.lower), upper: of_starts(&values.upper) });
-        }
-        let upper = until(&upper_goal)?;
-        let (lower, upper) = (self.note(lower), self.note(upper));
-        Ok(ValueBounds { lower: of_starts(&lower.lower), upper: of_starts(&upper.upper) })
+        Ok(match upper.transpose()? {
+            None => {
+                let exact = |(state, start): (usize, &StateId)| {
+                    lower.exact.get(&(*start as usize)).map(|value| (state, value.clone()))
+                };
+                let exact = product.starts.iter().enumerate().filter_map(exact).collect();
+                let Known { bounds, .. } = &lower;
+                Known { exact, ..Known::within(of_starts(&bounds.lower), of_starts(&bounds.upper)) }
+            }
+            Some(upper) => Known::within(of_starts(&lower.bounds.lower), of_starts(&upper.bounds.upper)),
+        })
     }
 }
 
@@ -138,15 +153,18 @@ impl Product {
                     None => {
                         let mut entries = vec![];
                         match row.map(|row| model.rows().row(row)) {
-                            None => entries.push((pairs.enter(state, memory)?, 1.0, 1.0)),
+                            None => {
+                                let stays = pairs.enter(state, memory)?;
+                                rows.push_entry(stays, 1.0, 1.0);
+                            }
                             Some(row) => {
-                                for ((&s, &l), &u) in row.successors.iter().zip(row.lower).zip(row.upper) {
-                                    entries.push((pairs.enter(s, memory)?, l, u));
+                                for (i, &s) in row.successors.iter().enumerate() {
+                                    entries.push((pairs.enter(s, memory)?, i));
                                 }
+                                entries.sort_unstable();
+                                entries.into_iter().for_each(|(s, i)| rows.push_copy(s, row, i));
                             }
                         }
-                        entries.sort_unstable_by_key(|entry| entry.0);
-                        entries.into_iter().for_each(|(s, l, u)| rows.push_entry(s, l, u));
                         let id = rows.finish_row();
                         known.insert(key, id);
                         id

@@ -186,6 +186,16 @@ impl Rows {
         self.upper.push(upper);
     }
 
+    /// Adds `successor` to the row under construction, with the bounds that another row has at a position.
+    pub fn push_copy(&mut self, successor: StateId, row: Row<'_>, position: usize) {
+        self.push_entry(successor, row.lower[position], row.upper[position]);
+        for end in [End::Lower, End::Upper] {
+            if let Some(value) = row.exact_bound(end, position) {
+                self.set_exact(end, value.clone());
+            }
+        }
+    }
+
     /// Says what one of the bounds of the entry added last is exactly; its double is the nearest one.
     pub fn set_exact(&mut self, end: End, value: Exact) {
         let start = self.starts.last().copied().unwrap_or_default();

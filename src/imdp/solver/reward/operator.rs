@@ -57,7 +57,7 @@ impl Operator {
                     _ => {
                         let source = model.rows().row(row);
                         for (position, &successor) in source.successors.iter().enumerate() {
-                            let upper = if possible(successor) { source.upper[position] } else { 0.0 };
+                            let is_possible = possible(successor);
                             let successor = match of_branches.map(|of_branches| of_branches[position]) {
                                 None => successor,
                                 Some(reward) => {
@@ -65,7 +65,10 @@ impl Operator {
                                     (model_states + branches.len() - 1) as StateId
                                 }
                             };
-                            rows.push_entry(successor, source.lower[position], upper);
+                            match is_possible {
+                                true => rows.push_copy(successor, source, position),
+                                false => rows.push_entry(successor, source.lower[position], 0.0),
+                            }
                         }
                         let local = rows.finish_row();
                         if of_branches.is_none() {
