@@ -5,7 +5,7 @@ use super::{RESOLUTIONS, models, options};
 use crate::common::certified::{certified, files};
 use imdp::certificate::{Certificate, Evidence};
 use imdp::evaluation::Evaluation;
-use imdp::model::{IntervalMdp, StateSet};
+use imdp::model::{IntervalMdp, StateId, StateSet};
 use imdp::numeric::{Rational, from_decimal};
 use imdp::property::{Definitions, Inquiry, Probability, Property, Resolution, Verdict, parse_inquiry};
 use imdp::solver::{Answer, Inexact, SolverOptions};
@@ -124,7 +124,7 @@ fn verdict(model: &IntervalMdp, text: &str, options: &SolverOptions<'_>) -> (Ver
         }
         Inquiry::Compound(compound) => {
             let evaluation = Evaluation::new(model, &compound, None, options).unwrap();
-            (evaluation.verdict(0).unwrap(), evaluation.inexact)
+            (evaluation.verdict(StateId::from_index(0)).unwrap(), evaluation.inexact)
         }
     }
 }
@@ -193,5 +193,5 @@ fn too_much_work_leaves_a_threshold_undecided() {
     // Beside an initial state, others may take more than there is.
     let property: Property = "(Pmaxmin=? [ F \"goal\" ])>=4/9".parse().unwrap();
     let answer = Answer::new(&model, &property, &SolverOptions::default()).unwrap();
-    assert_eq!(answer.exact.get(&0), Some(&Rational::new(4.into(), 9.into())));
+    assert_eq!(answer.exact.get(&StateId::from_index(0)), Some(&Rational::new(4.into(), 9.into())));
 }

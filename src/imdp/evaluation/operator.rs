@@ -1,12 +1,13 @@
 //! The operators `P` and `R`.
 
 use super::expression::Evaluator;
+use super::path::is_path;
 use super::{EvaluationError, Known, Numbers, Truth, directions};
 use crate::model::RewardStructure;
 use crate::numeric::to_f64;
 use crate::property::{
     Asked, Constant, Measured, Node, NodeKind, Operator, Relation, Resolution, RewardPath, StepBound,
-    Structure, ThresholdComparison, constant,
+    Structure, TemporalOperator, ThresholdComparison, constant,
 };
 use crate::solver::{RewardQuery, Solution, SolverOptions, Status, ValueBounds, solve_rewards};
 use num_traits::ToPrimitive;
@@ -63,8 +64,13 @@ impl Evaluator<'_> {
         };
         match path {
             RewardPath::Reach(node) => {
-                let NodeKind::Temporal(_, _, operand) = &node.kind else {
-                    return Ok(self.nothing_known().bounds);
+                let operand = match &node.kind {
+                    NodeKind::Temporal(TemporalOperator::Finally, bounds, operand)
+                        if bounds.is_none() && !is_path(operand) =>
+                    {
+                        operand
+                    }
+                    _ => return self.cosafe_reward(rewards, node, resolution),
                 };
                 let goal = self.truth(operand)?;
                 if goal.is_exact() {

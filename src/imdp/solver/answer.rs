@@ -98,7 +98,8 @@ impl Answer {
         let initial = || model.initial().ones();
         self.lower = initial().map(|s| self.values.lower[s]).fold(1.0, f64::min);
         self.upper = initial().map(|s| self.values.upper[s]).fold(0.0, f64::max);
-        let verdicts: Option<Vec<Verdict>> = initial().map(|s| self.verdict_of(s as StateId)).collect();
+        let verdicts: Option<Vec<Verdict>> =
+            initial().map(|s| self.verdict_of(StateId::from_index(s))).collect();
         self.verdict = verdicts.map(Verdict::in_all);
     }
 
@@ -108,7 +109,7 @@ impl Answer {
         if matches!(self.solution.status, Status::IterationLimit | Status::TimeLimit | Status::Interrupted) {
             return Err(Inexact::Stopped);
         }
-        let undecided = |s: &usize| self.verdict_of(*s as StateId) == Some(Verdict::Unknown);
+        let undecided = |s: &usize| self.verdict_of(StateId::from_index(*s)) == Some(Verdict::Unknown);
         let mut wanted = StateSet::with_capacity(model.num_states());
         (0..model.num_states()).filter(undecided).for_each(|s| wanted.insert(s));
         let (event, players) = (Event::from(&self.query.kind), self.query.resolution.into());
@@ -154,7 +155,7 @@ impl Answer {
         let threshold = self.objective.threshold.as_ref()?;
         Some(match self.exact.get(&state) {
             Some(value) => threshold.decide_exactly(value, value),
-            None => threshold.decide(self.values.lower[state as usize], self.values.upper[state as usize]),
+            None => threshold.decide(self.values.lower[state.index()], self.values.upper[state.index()]),
         })
     }
 }

@@ -104,11 +104,11 @@ pub(crate) fn exact_values(
         Event::Until { safe, .. } if first > 0 => {
             let mut work = Work::new(&plain);
             let mut moving = safe.clone();
-            let has_rows = |s: &usize| !model.choices().ranges(*s as StateId).is_empty();
+            let has_rows = |s: &usize| !model.choices().ranges(StateId::from_index(*s)).is_empty();
             (0..model.num_states()).filter(|s| !has_rows(s)).for_each(|s| moving.set(s, false));
             let part = Part::new(model, &moving, wanted, &mut work)?;
             let mut reached = StateSet::with_capacity(model.num_states());
-            part.all().for_each(|s| reached.insert(s as usize));
+            part.all().for_each(|s| reached.insert(s.index()));
             reached.union_with(wanted);
             let later = ExactSolution::new(model, event, resolution.into(), &reached, &plain)?;
             let mut values = later.values_of(&reached);
@@ -119,16 +119,16 @@ pub(crate) fn exact_values(
             };
             let mut last = wait(Level::of_rationals(start), 1)?;
             // Where it is not safe to wait nothing can come of it.
-            values.iter_mut().filter(|(s, _)| !safe.contains(**s as usize)).for_each(|(_, v)| v.set_zero());
-            last.lose_outside(&part, |state| !safe.contains(state as usize));
+            values.iter_mut().filter(|(s, _)| !safe.contains(s.index())).for_each(|(_, v)| v.set_zero());
+            last.lose_outside(&part, |state| !safe.contains(state.index()));
             let last = wait(last, first - 1)?;
             values.extend(part.states.iter().copied().zip(last.rationals(part.states.len())));
-            values.retain(|&s, _| wanted.contains(s as usize));
+            values.retain(|&s, _| wanted.contains(s.index()));
             values
         }
         _ => ExactSolution::new(model, event, resolution.into(), wanted, &plain)?.values_of(wanted),
     };
-    Ok(values.into_iter().map(|(state, value)| (state as usize, value)).collect())
+    Ok(values.into_iter().map(|(state, value)| (state.index(), value)).collect())
 }
 
 impl ExactSolution {
@@ -143,7 +143,7 @@ impl ExactSolution {
         let mut work = Work::new(options);
         let record = options.policy || options.evidence;
         let mut moving = StateSet::with_capacity(model.num_states());
-        let has_rows = |s: &usize| !model.choices().ranges(*s as StateId).is_empty();
+        let has_rows = |s: &usize| !model.choices().ranges(StateId::from_index(*s)).is_empty();
         (0..model.num_states()).filter(has_rows).for_each(|s| moving.insert(s));
         if let Event::Until { safe, goal, .. } = event {
             moving.intersect_with(safe);
@@ -162,7 +162,7 @@ impl ExactSolution {
             }
         };
         let part = Part::new(model, &moving, wanted, &mut work)?;
-        let start = |s: StateId| Rational::from_integer(u8::from(goal.contains(s as usize)).into());
+        let start = |s: StateId| Rational::from_integer(u8::from(goal.contains(s.index())).into());
         let start = part.all().map(start).collect();
         let (last, levels) =
             iterate::iterate(&part, Level::of_rationals(start), steps, players, record, &mut work)?;
@@ -173,7 +173,7 @@ impl ExactSolution {
     /// The values of these states.
     pub(super) fn values_of(&self, wanted: &StateSet) -> BTreeMap<StateId, Rational> {
         let value = |s: usize| {
-            let state = s as StateId;
+            let state = StateId::from_index(s);
             let value = match self.part.position(state) {
                 Some(position) => self.values[position].clone(),
                 None if self.ones.contains(s) => Rational::one(),

@@ -44,22 +44,22 @@ impl Part {
     ) -> Result<Self, Inexact> {
         let (mut known, mut outside) = (moving.clone(), StateSet::with_capacity(model.num_states()));
         known.intersect_with(wanted);
-        let mut queue: Vec<StateId> = known.ones().map(|s| s as StateId).collect();
+        let mut queue: Vec<StateId> = known.ones().map(StateId::from_index).collect();
         let mut taken = StateSet::with_capacity(model.rows().len());
         let mut found: Vec<(RowId, Numerators<BigUint>)> = vec![];
         while let Some(state) = queue.pop() {
             for row in model.choices().rows(state) {
                 work.spend(ENTRY)?;
-                if taken.put(row as usize) {
+                if taken.put(row.index()) {
                     continue;
                 }
                 let successors = model.rows().row(row).successors;
                 work.spend(ENTRY * successors.len() as u64)?;
                 let exact = ExactRow::new(model.rows().row(row)).ok_or(Inexact::Unproved)?.into_numerators();
                 for (_, &s) in successors.iter().enumerate().filter(|(i, _)| possible(&exact, *i)) {
-                    match moving.contains(s as usize) {
-                        false => outside.insert(s as usize),
-                        true if known.put(s as usize) => {}
+                    match moving.contains(s.index()) {
+                        false => outside.insert(s.index()),
+                        true if known.put(s.index()) => {}
                         true => queue.push(s),
                     }
                 }
@@ -72,7 +72,7 @@ impl Part {
             scale = common_multiple(scale, &exact.scale);
             work.spend(ENTRY * digits(&scale) * digits(&scale))?;
         }
-        let list = |set: &StateSet| set.ones().map(|s| s as StateId).collect::<Vec<_>>();
+        let list = |set: &StateSet| set.ones().map(StateId::from_index).collect::<Vec<_>>();
         let (states, outside) = (list(&known), list(&outside));
         let index = |row: RowId| found.binary_search_by_key(&row, |(row, _)| *row).map_or(0, |at| at as u32);
         let options = states.iter().map(|&s| model.choices().rows(s).map(index).collect()).collect();

@@ -22,8 +22,8 @@ pub(in crate::solver) fn settle(
 ) -> Result<BTreeMap<StateId, Rational>, Inexact> {
     let exact = ExactSolution::new(model, event, players, wanted, options)?;
     for (&state, value) in exact.part.states.iter().zip(&exact.values) {
-        solution.values.lower[state as usize] = to_f64_down(value);
-        solution.values.upper[state as usize] = to_f64_up(value);
+        solution.values.lower[state.index()] = to_f64_down(value);
+        solution.values.upper[state.index()] = to_f64_up(value);
     }
     match &exact.record {
         Record::Steps(levels) => {
@@ -36,10 +36,10 @@ pub(in crate::solver) fn settle(
             let chosen = || exact.part.states.iter().copied().zip(choices.iter().copied());
             solution.policy = solution.policy.take().map(|policy| {
                 let mut table = vec![NO_CHOICE; model.num_states()];
-                (0..)
+                StateId::first(model.num_states())
                     .zip(&mut table)
                     .for_each(|(s, choice)| *choice = policy.choice(s, 0).unwrap_or(NO_CHOICE));
-                chosen().for_each(|(s, choice)| table[s as usize] = choice);
+                chosen().for_each(|(s, choice)| table[s.index()] = choice);
                 Policy::stationary(&table)
             });
             if let Some(Evidence::Inductive(inductive)) = &mut solution.evidence {
@@ -55,7 +55,7 @@ impl ExactSolution {
     /// The policy with the choices of these levels in the states of the part.
     fn policy(&self, policy: &Policy, levels: &[Level]) -> Policy {
         let mut list = vec![];
-        for state in 0..policy.num_states() as StateId {
+        for state in StateId::first(policy.num_states()) {
             match self.part.position(state) {
                 None => {
                     list.extend(policy.changes(state).iter().map(|&(left, choice)| (state, left, choice)))
@@ -83,7 +83,7 @@ impl ExactSolution {
         let goal = match event {
             Event::Until { goal, .. } | Event::Next { goal } => *goal,
         };
-        let start = |&s: &StateId| Rational::from_integer(u8::from(goal.contains(s as usize)).into());
+        let start = |&s: &StateId| Rational::from_integer(u8::from(goal.contains(s.index())).into());
         let mut before: Vec<Rational> = states.iter().map(start).collect();
         let mut choices = vec![NO_CHOICE; states.len()];
         for (step, level) in steps.iter_mut().zip(levels) {
@@ -111,13 +111,13 @@ impl ExactSolution {
         replace(&mut inductive.exact_upper, states, exact());
         let mut lower = vec![0.0; model.num_states()];
         self.ones.ones().for_each(|s| lower[s] = 1.0);
-        inductive.lower.iter().for_each(|&(s, value)| lower[s as usize] = value);
-        inductive.exact_lower.iter().for_each(|(s, value)| lower[*s as usize] = to_f64_down(value));
+        inductive.lower.iter().for_each(|&(s, value)| lower[s.index()] = value);
+        inductive.exact_lower.iter().for_each(|(s, value)| lower[s.index()] = to_f64_down(value));
         let mut choices = vec![NO_CHOICE; model.num_states()];
-        inductive.choices.iter().for_each(|&(s, choice)| choices[s as usize] = choice);
+        inductive.choices.iter().for_each(|&(s, choice)| choices[s.index()] = choice);
         // Whoever can move has a choice.
         let mut moving = StateSet::with_capacity(model.num_states());
-        inductive.choices.iter().for_each(|&(s, _)| moving.insert(s as usize));
+        inductive.choices.iter().for_each(|&(s, _)| moving.insert(s.index()));
         let replaced: Replaced = inductive.exact_lower.iter().cloned().collect();
         inductive.ranks = ranks(model, &moving, players, &lower, &replaced, &choices);
     }

@@ -27,7 +27,7 @@ pub(super) fn solve(
     players: Players,
     work: &mut Work<'_>,
 ) -> Result<(Vec<Rational>, Vec<u32>), Inexact> {
-    let promising: Vec<bool> = part.outside.iter().map(|&s| certain.contains(s as usize)).collect();
+    let promising: Vec<bool> = part.outside.iter().map(|&s| certain.contains(s.index())).collect();
     let all: Vec<_> = part.options.iter().map(|options| (&**options, players.policy)).collect();
     let WaysOut { choices, closeness } =
         ways_out(&all, &part.rows, &promising, players.nature).ok_or(Inexact::Unproved)?;
