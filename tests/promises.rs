@@ -61,7 +61,7 @@ fn a_wall_between_grouped_steps_cannot_be_crossed() {
 
 #[test]
 fn the_spacecraft_keeps_clear_of_the_obstacle_at_every_step() {
-    let closed = Loop::new(document("spacecraft_disaligned_every_step", &[]).problem().unwrap());
+    let closed = Loop::new(document("every_step/spacecraft_disaligned", &[]).problem().unwrap());
     assert_eq!(closed.problem.safety(), Safety::EveryStep);
     assert!(closed.answer.lower > 0.57, "{}", closed.answer.lower);
     let start = closed.problem.initial_state().unwrap();
