@@ -14,6 +14,7 @@
 //!
 //! All numbers are rounded to the side that they bound: sums of products of numbers in `[0, 1]` err by a known factor.
 
+mod arrivals;
 mod axis;
 mod images;
 mod invariant;
@@ -34,6 +35,6 @@ pub use axis::Axis;
 pub use images::{ImageSource, Images, LandingError, SizeClass, SubCells};
 pub use model::LandingModel;
 pub use side::{Lower, Side, Upper};
-pub use solve::{Aim, LandingSolution, Question};
+pub use solve::{LandingSolution, Question};
 pub use step::{Best, Landing};
 pub use taps::Taps;
