@@ -17,7 +17,7 @@ use dynabs::problem::{
     Gain, GivenSamples, InputSet, LinearDynamics, LowerLayer, Partition, Probabilities, Problem, RegionBox,
     SampleKind, Task,
 };
-use imdp::model::Row;
+use imdp::model::{Row, StateId};
 use imdp::solver::{Answer, SolverOptions};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha12Rng;
@@ -186,7 +186,7 @@ impl Experiment {
         problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary).any(|(cell, _)| {
             let state = enabling.state_of_cell[cell.index()];
             enabling.model.choices().rows(state).any(|row| {
-                let mut truths = self.truths(cell, row as usize);
+                let mut truths = self.truths(cell, row.index());
                 let row = row_of.model.rows().row(row);
                 truths.any(|truth| excludes(problem, row_of, &row, truth))
             })
@@ -203,7 +203,7 @@ impl Experiment {
             let of_cell = |cell: usize| {
                 let state = abstraction.state_of_cell[cell];
                 let row = policy.row(abstraction.model.choices(), state, elapsed)?;
-                let truths = self.truths(CellId(cell as u32), row as usize);
+                let truths = self.truths(CellId(cell as u32), row.index());
                 let worth = |truth: &Vec<f64>| truth.iter().zip(&values).map(|(p, v)| p * v).sum::<f64>();
                 Some(truths.map(worth).fold(f64::INFINITY, f64::min))
             };
@@ -227,7 +227,7 @@ impl Experiment {
         let answer = Answer::new(&strict.model, &strict.property, &options).unwrap();
         let worst = self.worst_values(&every_step, &strict, &answer);
         let is_overstated =
-            |(worst, &state): (&f64, &u32)| answer.values.lower[state as usize] > worst + ROUNDING;
+            |(worst, state): (&f64, &StateId)| answer.values.lower[state.index()] > worst + ROUNDING;
         BetweenFailures {
             rows: u64::from(self.is_violated(&every_step, &strict, &strict)),
             values: u64::from(worst.iter().zip(&strict.state_of_cell).any(is_overstated)),
@@ -244,7 +244,7 @@ impl Experiment {
             Answer::new(&abstraction.model, &abstraction.property, &SolverOptions::default()).unwrap();
         let ordinary = problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
         ordinary
-            .map(|(cell, _)| answer.values.lower[abstraction.state_of_cell[cell.index()] as usize])
+            .map(|(cell, _)| answer.values.lower[abstraction.state_of_cell[cell.index()].index()])
             .fold(0.0, f64::max)
     }
 }
@@ -279,12 +279,12 @@ fn crossing(law: &Law, cell: [u32; 2], target: [u32; 2]) -> Vec<usize> {
 fn excludes(problem: &Problem, abstraction: &Abstraction, row: &Row<'_>, truth: &[f64]) -> bool {
     let mut of_state = vec![0.0; abstraction.model.num_states()];
     for (cell, _) in problem.labels().iter() {
-        of_state[abstraction.state_of_cell[cell.index()] as usize] += truth[cell.index()];
+        of_state[abstraction.state_of_cell[cell.index()].index()] += truth[cell.index()];
     }
-    let listed: f64 = row.successors.iter().filter(|&&s| s != 0).map(|&s| of_state[s as usize]).sum();
+    let listed: f64 = row.successors.iter().filter(|&&s| s != StateId(0)).map(|&s| of_state[s.index()]).sum();
     of_state[0] = 1.0 - listed;
     row.successors.iter().enumerate().any(|(i, &state)| {
-        let p = of_state[state as usize];
+        let p = of_state[state.index()];
         p < row.lower[i] - ROUNDING || p > row.upper[i] + ROUNDING
     })
 }

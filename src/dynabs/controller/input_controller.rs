@@ -10,6 +10,7 @@ use crate::partition::{CellId, CellKind, CellLookup};
 use crate::problem::InputProblem;
 use crate::system::Feedback;
 use crate::task::{CellTask, Memory, Standing};
+use imdp::model::StateId;
 use imdp::numeric::to_f64;
 
 /// The feedback law `u = ū − K (x − c)`: the cell of `x`, with center `c`, and the number `k` of steps elapsed decide on `ū`.
@@ -57,7 +58,7 @@ impl InputController {
             num_inputs: problem.mode().num_inputs(),
             feedback: problem.feedback().clone(),
             centers: grid.axes().iter().map(|axis| axis.centers()).collect(),
-            schedule: Schedule::of_cells((0..pairs).map(|pair| solution.policy.changes(pair))),
+            schedule: Schedule::of_cells((0..pairs).map(|pair| solution.policy.changes(StateId(pair)))),
             initial: Bound {
                 initial_state: problem.initial_state().map(<[f64]>::to_vec),
                 bound: initial.iter().map(|&cell| lower[cell as usize]).fold(1.0, f64::min),

@@ -5,18 +5,18 @@ use imdp::model::StateId;
 use std::collections::HashMap;
 
 /// Everything that failed.
-pub(super) const FAILED: StateId = 0;
+pub(super) const FAILED: StateId = StateId(0);
 /// Where unlisted noise goes.
-pub(super) const LOST: StateId = 1;
+pub(super) const LOST: StateId = StateId(1);
 /// All goal cells, if there is a goal.
-pub(super) const REACHED: StateId = 2;
+pub(super) const REACHED: StateId = StateId(2);
 
 /// The states of memories in cells, and those in which nature picks one of them.
 ///
 /// If nature picks anywhere, all runs that go on come by such a state, so that all steps are equally long.
 pub(super) struct Arrivals {
     /// By memory: the state with it in the first cell in which it may be open.
-    pub(super) first: Vec<StateId>,
+    pub(super) first: Vec<u32>,
     /// The state after those of memories in cells.
     pub(super) pairs_end: usize,
     /// What nature picks from, by state from `pairs_end` on.
@@ -31,12 +31,12 @@ pub(super) struct Arrivals {
 
 impl Arrivals {
     /// The states from `heads` on, for the open cells of every memory.
-    pub(super) fn new(task: &CellTask, pairs: &[Vec<u32>], heads: StateId) -> Self {
+    pub(super) fn new(task: &CellTask, pairs: &[Vec<u32>], heads: u32) -> Self {
         let mut end = heads;
-        let first: Vec<StateId> = (pairs.iter())
+        let first: Vec<u32> = (pairs.iter())
             .map(|open| {
                 let first = end;
-                end += open.len() as StateId;
+                end += open.len() as u32;
                 first
             })
             .collect();
@@ -45,7 +45,7 @@ impl Arrivals {
             Standing::Reached => REACHED,
             Standing::Open(memory) => {
                 let place = pairs[*memory as usize].binary_search(&(cell as u32));
-                place.map_or(FAILED, |place| first[*memory as usize] + place as StateId)
+                place.map_or(FAILED, |place| StateId(first[*memory as usize] + place as u32))
             }
         };
         let states = |before, cell| {
@@ -60,10 +60,10 @@ impl Arrivals {
         let mut arrival = |before, cell| {
             let states: Vec<StateId> = states(before, cell);
             match states[..] {
-                [one] if one < heads || !task.is_ambiguous() => one,
+                [one] if one.0 < heads || !task.is_ambiguous() => one,
                 _ => *numbers.entry(states).or_insert_with_key(|states| {
                     picks.push(states.clone());
-                    (pairs_end + picks.len() - 1) as StateId
+                    StateId::from_index(pairs_end + picks.len() - 1)
                 }),
             }
         };

@@ -68,7 +68,8 @@ impl Question<'_> {
         let mut rows = Rows::new();
         push_any(&mut rows, vec![FAILED, if can_be_done { REACHED } else { LOST }]);
         for (start, _) in &layers {
-            (0..ranges.places.len()).for_each(|range| push_any(&mut rows, vec![(start + range) as StateId]));
+            (0..ranges.places.len())
+                .for_each(|range| push_any(&mut rows, vec![StateId::from_index(start + range)]));
         }
         arrivals.picks.iter().for_each(|states| push_any(&mut rows, states.clone()));
         for (_, layers) in &layers {
@@ -80,8 +81,8 @@ impl Question<'_> {
 
         let mut choices = ChoicesBuilder::with_capacity(states);
         let mut ids = vec![];
-        let one = |row: usize| RowRange { first: row as RowId, last: row as RowId };
-        for head in 0..heads {
+        let one = |row: usize| RowRange { first: RowId::from_index(row), last: RowId::from_index(row) };
+        for head in StateId::first(heads as usize) {
             if head == LOST {
                 choices.push_range(one(0));
                 choices.finish_state();
@@ -114,8 +115,8 @@ impl Question<'_> {
         labels.insert("failed", set(states, Some(FAILED)));
         if pairs.len() > 1 {
             for (memory, first) in arrivals.first.iter().enumerate() {
-                let last = first + pairs[memory].len() as StateId;
-                labels.insert(format!("memory_{memory}"), set(states, *first..last));
+                let last = first + pairs[memory].len() as u32;
+                labels.insert(format!("memory_{memory}"), set(states, (*first..last).map(StateId)));
             }
         }
         let starts = initial.iter().flat_map(|&cell| &arrivals.at_start[cell as usize]).copied();
@@ -159,7 +160,7 @@ impl Question<'_> {
 
 fn set(states: usize, members: impl IntoIterator<Item = StateId>) -> StateSet {
     let mut set = StateSet::with_capacity(states);
-    set.extend(members.into_iter().map(|state| state as usize));
+    set.extend(members.into_iter().map(StateId::index));
     set
 }
 

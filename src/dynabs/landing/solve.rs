@@ -4,6 +4,7 @@ use super::images::Images;
 use super::side::{Lower, Side, Upper};
 use super::step::{Best, Landing};
 use crate::task::{Aim, CellTask, Memory, Standing};
+use imdp::model::StateId;
 use imdp::solver::{Control, NO_CHOICE, Policy, SolverOptions, Status, ValueBounds};
 use rayon::prelude::*;
 
@@ -217,7 +218,7 @@ impl Question<'_> {
 struct Choices {
     steps: Option<u64>,
     now: Vec<u32>,
-    changes: Vec<(u32, u64, u32)>,
+    changes: Vec<(StateId, u64, u32)>,
 }
 
 impl Choices {
@@ -230,7 +231,7 @@ impl Choices {
         if *now != input {
             *now = input;
             if self.steps.is_some() {
-                self.changes.push((cell, left, input));
+                self.changes.push((StateId(cell), left, input));
             }
         }
     }
