@@ -39,5 +39,6 @@ mod solver;
 mod soundness;
 mod steering;
 mod systems;
+mod tasks;
 mod values;
 mod verify;
