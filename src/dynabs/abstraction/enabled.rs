@@ -133,7 +133,8 @@ impl<'a> Scan<'a> {
             let room = slack[i] - self.least_after[k][i];
             // Monotone in x even in floating point, so the feasible indices are a range.
             let fits = |index: usize| alpha * axis[index] <= room;
-            if room.is_nan() {
+            // No number, or less than any: a sum that overflowed decides for nobody.
+            if room.is_nan() || room == f64::NEG_INFINITY {
                 return None;
             }
             if alpha == 0.0 {

@@ -15,6 +15,7 @@ use imdp::model::{
     ActionNames, ChoicesBuilder, ImdpError, IntervalMdp, Labels, ModelKind, Parts, RowId, RowRange, Rows,
     StateId, StateSet, StateVariables,
 };
+use std::collections::{BTreeSet, HashMap};
 
 /// An interval MDP whose cells come before everything else that there is for the encoding.
 #[derive(Clone, Debug)]
@@ -73,9 +74,7 @@ impl Question<'_> {
         }
         arrivals.picks.iter().for_each(|states| push_any(&mut rows, states.clone()));
         for (_, layers) in &layers {
-            ranges.places.iter().for_each(|&(class, at)| {
-                push_any(&mut rows, self.sub_cells(layers, class, at));
-            });
+            ranges.places.iter().for_each(|place| push_any(&mut rows, self.sub_cells(layers, place)));
             layers.push_rows(&mut rows);
         }
 
@@ -95,10 +94,10 @@ impl Question<'_> {
         for (memory, open) in pairs.iter().enumerate() {
             let mut enabled = ranges.of_pairs.iter().peekable();
             for &cell in open {
-                while enabled.next_if(|(pair, _)| pair / inputs < cell).is_some() {}
-                while let Some(&(pair, range)) = enabled.next_if(|(pair, _)| pair / inputs == cell) {
+                while enabled.next_if(|(of, ..)| *of < cell).is_some() {}
+                while let Some(&(_, input, range)) = enabled.next_if(|(of, ..)| *of == cell) {
                     choices.push_range(one(1 + memory * ranges.places.len() + range as usize));
-                    ids.push(pair % inputs);
+                    ids.push(input);
                 }
                 choices.finish_state();
             }
@@ -136,21 +135,14 @@ impl Question<'_> {
     }
 
     /// The states of the sub-cells of a box.
-    fn sub_cells(&self, layers: &Layers<'_>, class: u32, at: u32) -> Vec<StateId> {
-        let size = &self.images.classes()[class as usize].size;
+    fn sub_cells(&self, layers: &Layers<'_>, sides: &[(u32, u32)]) -> Vec<StateId> {
         let lens: Vec<usize> = self.landing.axes().iter().map(|axis| axis.len).collect();
-        let mut first = vec![0; lens.len()];
-        let mut rest = at as usize;
-        for j in (0..lens.len()).rev() {
-            first[j] = rest % lens[j];
-            rest /= lens[j];
-        }
-        let count: usize = size.iter().map(|&s| s as usize).product();
+        let count: usize = sides.iter().map(|&(_, size)| size as usize).product();
         let place = |mut index: usize| {
-            let mut place = first.clone();
-            for j in (0..lens.len()).rev() {
-                place[j] = (first[j] + index % size[j] as usize) % lens[j];
-                index /= size[j] as usize;
+            let mut place = vec![0; lens.len()];
+            for (j, &(first, size)) in sides.iter().enumerate().rev() {
+                place[j] = (first as usize + index % size as usize) % lens[j];
+                index /= size as usize;
             }
             layers.of_sub_cell(&place)
         };
@@ -166,27 +158,26 @@ fn set(states: usize, members: impl IntoIterator<Item = StateId>) -> StateSet {
 
 /// The distinct images.
 struct Ranges {
-    /// `(class, position)`, ascending.
-    places: Vec<(u32, u32)>,
-    /// `(cell · inputs + input, range)`, ascending.
-    of_pairs: Vec<(u32, u32)>,
+    /// By coordinate, where the box begins and how many sub-cells it has; ordered by sizes, then by beginnings.
+    places: Vec<Vec<(u32, u32)>>,
+    /// `(cell, input, range)`, ascending.
+    of_pairs: Vec<(u32, u32, u32)>,
 }
 
 impl Ranges {
     fn new(images: &Images) -> Self {
-        let all = || {
-            (0..)
-                .zip(images.classes())
-                .flat_map(|(class, images)| images.at.iter().map(move |&at| (class, at)))
+        let distinct: BTreeSet<(u32, u16)> = images.all().map(|(.., image)| image).collect();
+        let sizes_first = |sides: &[(u32, u32)]| -> (Vec<u32>, Vec<u32>) {
+            (sides.iter().map(|side| side.1).collect(), sides.iter().map(|side| side.0).collect())
         };
-        let mut places: Vec<(u32, u32)> = all().collect();
-        places.sort_unstable();
-        places.dedup();
-        let pairs = images.classes().iter().flat_map(|class| &class.of);
-        let range = |place| places.binary_search(&place).unwrap_or_default() as u32;
-        let mut of_pairs: Vec<_> = pairs.zip(all()).map(|(&pair, place)| (pair, range(place))).collect();
-        of_pairs.sort_unstable();
-        Self { places, of_pairs }
+        let mut boxes: Vec<_> = distinct.iter().map(|&image| (images.sub_cells(image), image)).collect();
+        boxes.sort_by_cached_key(|(sides, _)| sizes_first(sides));
+        let numbers: HashMap<(u32, u16), u32> =
+            (0..).zip(&boxes).map(|(range, (_, image))| (*image, range)).collect();
+        let of_pairs = images
+            .all()
+            .map(|(cell, input, image)| (cell, input, numbers.get(&image).copied().unwrap_or_default()));
+        Self { of_pairs: of_pairs.collect(), places: boxes.into_iter().map(|(sides, _)| sides).collect() }
     }
 }
 
