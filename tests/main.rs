@@ -41,5 +41,6 @@ mod soundness;
 mod steering;
 mod systems;
 mod tasks;
+mod type_names;
 mod values;
 mod verify;

@@ -65,7 +65,7 @@ struct Rows<'a> {
 impl<'a> Rows<'a> {
     fn new(grid: &Grid, polytope: &'a Polytope) -> Self {
         let faces = |row: usize, greatest: bool| {
-            let of_axis = |(j, axis): (usize, &crate::partition::Axis)| {
+            let of_axis = |(j, axis): (usize, &crate::partition::GridAxis)| {
                 let normal = polytope.normals().get(row, j);
                 let upper = normal.is_positive() == greatest;
                 (0..axis.cells()).map(|i| normal * axis.face(i + u32::from(upper))).collect()

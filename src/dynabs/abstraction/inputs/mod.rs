@@ -6,11 +6,11 @@
 mod resolution;
 mod tables;
 
-use crate::landing::{Axis, Images as LandedImages, Landing, LandingError, Layout, Question, occurring};
+use crate::landing::{Axis, Images, Landing, LandingError, Layout, Question, occurring};
 use crate::noise::known::Distribution;
 use crate::partition::CellId;
 use crate::problem::InputProblem;
-use crate::system::{ImageError, Images, Lattice};
+use crate::system::{ImageError, ImageMap, Lattice};
 use crate::task::{Aim, CellTask};
 use imdp::model::{MemoryError, require_memory};
 use imdp::property::{PathFormula, Property, Resolution, StateFormula};
@@ -24,7 +24,7 @@ const BYTES_OF_CELL: u64 = 64;
 #[derive(Clone, Debug)]
 pub struct InputAbstraction {
     landing: Landing,
-    images: LandedImages,
+    images: Images,
     open: Vec<u32>,
     task: CellTask,
     steps: Option<u64>,
@@ -70,7 +70,7 @@ impl InputAbstraction {
         if inputs.is_empty() {
             return Err(InputsError::NothingEnabled);
         }
-        let images = Images::new(problem.mode(), problem.feedback(), grid, lattice, inputs);
+        let images = ImageMap::new(problem.mode(), problem.feedback(), grid, lattice, inputs);
         let tables = Tables::new(grid, &images, inputs.len())?;
         let tabulated = start.elapsed();
 
@@ -96,10 +96,10 @@ impl InputAbstraction {
         let layout = Layout::new(&tables, &occurs, landing.axes(), pairs)?;
         require_memory(
             "the images of all cells and inputs",
-            LandedImages::bytes(&layout, ordinary.len(), inputs.len())
+            Images::bytes(&layout, ordinary.len(), inputs.len())
                 + BYTES_OF_CELL * u64::from(grid.num_cells()),
         )?;
-        let images = LandedImages::new(&tables, &ordinary, layout);
+        let images = Images::new(&tables, &ordinary, layout);
         let open = images.acting();
         let phases = vec![("images", tabulated), ("landing", start.elapsed() - tabulated)];
         Ok(Self {

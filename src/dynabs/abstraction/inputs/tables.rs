@@ -3,7 +3,7 @@
 use super::InputsError;
 use crate::landing::ImageSource;
 use crate::partition::{CellId, Grid};
-use crate::system::{ImageError, ImageScratch, Images, LatticeRange};
+use crate::system::{ImageError, ImageMap, ImageScratch, LatticeRange};
 use rayon::prelude::*;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 /// The images of all cells under the inputs that are enabled.
 pub(super) struct Tables<'a> {
     grid: &'a Grid,
-    images: &'a Images,
+    images: &'a ImageMap,
     inputs: usize,
     /// By coordinate: the ranges that occur in its rows, ascending.
     ranges: Vec<Vec<(i64, i64)>>,
@@ -44,7 +44,7 @@ impl<'a> Tables<'a> {
     ///
     /// # Errors
     /// The first [`ImageError`], by row and cell, where a row has a table.
-    pub(super) fn new(grid: &'a Grid, images: &'a Images, inputs: usize) -> Result<Self, InputsError> {
+    pub(super) fn new(grid: &'a Grid, images: &'a ImageMap, inputs: usize) -> Result<Self, InputsError> {
         let rows: Result<Vec<_>, ImageError> =
             (0..images.num_rows()).map(|row| Self::row(grid, images, row)).collect();
         let mut rows = rows.map_err(|error| InputsError::Image(Box::new(error)))?;
@@ -64,7 +64,7 @@ impl<'a> Tables<'a> {
     }
 
     /// A row over the coordinates that it depends on, and its ranges, ascending.
-    fn row(grid: &Grid, images: &Images, row: usize) -> Result<(Table, Vec<(i64, i64)>), ImageError> {
+    fn row(grid: &Grid, images: &ImageMap, row: usize) -> Result<(Table, Vec<(i64, i64)>), ImageError> {
         let depends_on = images.depends_on(row);
         let lengths: Vec<u32> = depends_on.iter().map(|&j| grid.axes()[j].cells()).collect();
         let entries: u64 = lengths.iter().map(|&n| u64::from(n)).product();
@@ -114,13 +114,13 @@ impl<'a> Tables<'a> {
 }
 
 /// What is undefined somewhere may lead anywhere.
-fn anew(images: &Images, row: usize, cell: &[u32], scratch: &mut ImageScratch) -> (i64, i64) {
+fn anew(images: &ImageMap, row: usize, cell: &[u32], scratch: &mut ImageScratch) -> (i64, i64) {
     let range = images.range(row, cell, scratch).unwrap_or(LatticeRange::EVERYTHING);
     (range.first, range.last)
 }
 
 /// The ranges that a row has in any cell.
-fn computed(grid: &Grid, images: &Images, row: usize) -> BTreeSet<(i64, i64)> {
+fn computed(grid: &Grid, images: &ImageMap, row: usize) -> BTreeSet<(i64, i64)> {
     let of_block = |mut ranges: BTreeSet<(i64, i64)>, cell: u32| {
         SCRATCH.with_borrow_mut(|(scratch, place)| {
             find(grid, cell, place);
