@@ -72,7 +72,8 @@ mod prepared;
 
 use super::AbstractionError;
 use super::action_counts::{ActionCounts, TargetPlacements, for_each_cell, is_inside};
-use super::cell_counts::{CellBox, RegionCounts};
+use super::cell_box::CellBox;
+use super::cell_counts::RegionCounts;
 use super::footprint::need_of_rows;
 use super::outcomes::{Outcome, Outcomes};
 use super::states::{FAILED, REACHED, StateSpace};
