@@ -144,6 +144,13 @@ impl<'a> ActionCounts<'a> {
         }
     }
 
+    /// Where the samples land for all actions, if coordinates count from their targets; `depths` says of every sample how many
+    /// windows it is inside of.
+    pub(super) fn with_depths(&self, depths: &[u8]) -> Option<CellCounts> {
+        let placement = self.placements.shared()?;
+        Some(CellCounts::new(self.samples, placement, self.shared_windows.first(), Some(depths)))
+    }
+
     /// The landing of all actions, if coordinates count from their targets.
     pub(super) fn shared(&self) -> Option<&CellCounts> {
         self.shared.as_ref()

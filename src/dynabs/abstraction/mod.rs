@@ -22,6 +22,8 @@ mod outcomes;
 mod pac;
 mod placement;
 mod reference;
+mod room;
+mod rooms;
 mod row_tasks;
 mod states;
 mod steering;
