@@ -211,7 +211,7 @@ impl<'a> Probe<'a> {
             let by_target = &step.by_target[target.index() * n..(target.index() + 1) * n];
             let face = |side: usize, rung: usize| {
                 let (lower, upper) = step.rungs.get(rung)?;
-                let noise = if side % 2 == 0 { lower } else { upper };
+                let noise = if side.is_multiple_of(2) { lower } else { upper };
                 Some(by_target[side / 2] + by_cell[side / 2] + noise[side / 2])
             };
             // No number is clear of anything.

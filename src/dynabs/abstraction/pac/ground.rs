@@ -1,7 +1,8 @@
 //! Where the noise of each action lands, with the intervals of the cells there.
 
 use super::super::action_counts::ActionCounts;
-use super::super::cell_counts::{CellBox, CellCounts, Count};
+use super::super::cell_box::CellBox;
+use super::super::cell_counts::{CellCounts, Count};
 use super::super::targets::Targets;
 use super::PacRows;
 use super::bounds::{BoundTable, Interval};

@@ -82,7 +82,8 @@ mod roomy;
 
 use super::AbstractionError;
 use super::action_counts::{ActionCounts, TargetPlacements, for_each_cell, is_inside};
-use super::cell_counts::{CellBox, RegionCounts};
+use super::cell_box::CellBox;
+use super::cell_counts::RegionCounts;
 use super::enabling::Enabling;
 use super::footprint::need_of_rows;
 use super::outcomes::{Outcome, Outcomes};

@@ -26,7 +26,7 @@
 mod lottery;
 mod shape;
 
-use super::cell_counts::CellBox;
+use super::cell_box::CellBox;
 use super::placement::Placement;
 use super::room::{RUNGS, Room};
 use crate::Warning;

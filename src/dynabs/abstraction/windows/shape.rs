@@ -1,6 +1,6 @@
 //! The center and the proportions of nested boxes.
 
-use super::super::cell_counts::CellBox;
+use super::super::cell_box::CellBox;
 use super::super::placement::Placement;
 use super::super::room::{RUNGS, Room};
 use super::farther;
