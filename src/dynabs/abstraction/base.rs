@@ -60,7 +60,10 @@ impl<'a> Base<'a> {
             }
             Probabilities::Reference { beta_per_interval } => Intervals::Reference(*beta_per_interval),
         };
-        let hazards = hazards.as_ref().zip(intervals.windows());
+        let hazards = hazards.as_ref().zip(intervals.windows()).map(|(hazards, windows)| {
+            let cells = placements.shared().and_then(|placement| windows.cells(placement).into_iter().next());
+            (hazards, windows, cells.map_or(0, |cells| cells.volume()))
+        });
         let enabling = Enabling::new(problem, steering, hazards, progress)?;
         Ok(Self { placements, intervals, enabling })
     }

@@ -16,6 +16,9 @@ use rayon::prelude::*;
 /// Cells per parallel task.
 const CELLS_PER_TASK: usize = 64;
 
+/// Rooms are looked for among at most so many pairs of a cell and an action: beyond, the list of them would be what takes memory.
+const MOST_PAIRS: u64 = 1 << 24;
+
 /// The test of actions at the steps in between.
 pub(super) struct Between<'a> {
     hazards: &'a Hazards,
@@ -72,6 +75,8 @@ impl<'a> Between<'a> {
         enabled: &EnabledActions,
         progress: &dyn Progress,
     ) -> Clear {
+        let pairs: u64 = enabled.ranges.iter().map(|range| range.rows().count() as u64).sum();
+        let has_rooms = pairs <= MOST_PAIRS;
         let starts: Vec<usize> = (enabled.ranges_per_cell.iter())
             .scan(0, |end, &count| {
                 let start = *end;
@@ -85,7 +90,7 @@ impl<'a> Between<'a> {
             .enumerate()
             .map(|(task, chunk)| {
                 let mut found = Clear::default();
-                let mut probe = Probe::new(self);
+                let mut probe = Probe::new(self, has_rooms);
                 for (i, &cell) in (task * CELLS_PER_TASK..).zip(chunk) {
                     let before = found.actions.ranges.len();
                     probe.start_in(cell);
@@ -142,6 +147,7 @@ impl Step {
 /// What a task reuses from cell to cell.
 struct Probe<'a> {
     between: &'a Between<'a>,
+    has_rooms: bool,
     /// Per step, `S c`.
     by_cell: Vec<Vec<f64>>,
     center: Vec<f64>,
@@ -150,7 +156,7 @@ struct Probe<'a> {
 }
 
 impl<'a> Probe<'a> {
-    fn new(between: &'a Between<'a>) -> Self {
+    fn new(between: &'a Between<'a>, has_rooms: bool) -> Self {
         let zero = vec![0.0; between.grid.dimension()];
         Self {
             by_cell: vec![zero.clone(); between.steps.len()],
@@ -158,6 +164,7 @@ impl<'a> Probe<'a> {
             lower: zero.clone(),
             upper: zero,
             between,
+            has_rooms,
         }
     }
 
@@ -205,6 +212,9 @@ impl<'a> Probe<'a> {
 
     /// The room in which an action keeps clear of everything unsafe.
     fn room(&self, target: RowId) -> Option<Room> {
+        if !self.has_rooms {
+            return None;
+        }
         let n = self.center.len();
         let steps = self.between.steps.iter().zip(&self.by_cell);
         steps.into_iter().try_fold(Room::default(), |room, (step, by_cell)| {

@@ -26,11 +26,12 @@ pub(super) struct Enabling {
 
 impl Enabling {
     /// What the law allows; and, where hazards have to be avoided at every step, what keeps clear of them with noise of
-    /// the largest window, or with room for it.
+    /// the largest window, or with room for it; a row has at most as many entries as comes with
+    /// them.
     pub(super) fn new(
         problem: &Problem,
         steering: &Steering,
-        hazards: Option<(&Hazards, &Windows)>,
+        hazards: Option<(&Hazards, &Windows, usize)>,
         progress: &dyn Progress,
     ) -> Result<Self, AbstractionError> {
         let ordinary: Vec<CellId> = (problem.labels().iter())
@@ -48,11 +49,11 @@ impl Enabling {
             idle[cell.index()] = count == 0;
         }
         let (mut targets, mut rooms) = (steering.targets.clone(), Rooms::default());
-        if let Some((hazards, windows)) = hazards {
+        if let Some((hazards, windows, row_length)) = hazards {
             progress.start("steps in between", ordinary.len() as u64);
             let between = Between::new(problem, hazards, steering, windows);
             let clear = between.filter(&ordinary, &actions, progress);
-            (rooms, targets, actions) = Rooms::new(clear, &targets);
+            (rooms, targets, actions) = Rooms::new(clear, &targets, row_length);
             progress.finish();
             if is_empty(&actions) {
                 return Err(AbstractionError::NothingClear { group_steps: problem.group_steps() });

@@ -6,8 +6,11 @@ use super::room::{RUNGS, Room};
 use super::targets::Targets;
 use imdp::model::{RowId, RowRange};
 
-/// There are at most so many rows with a room for every target.
+/// There are at most so many rows with a room for every target,
 const ROWS_PER_TARGET: usize = 16;
+
+/// with so many entries in all.
+const MOST_ENTRIES: usize = 1 << 22;
 
 /// The rooms that rows are made with.
 #[derive(Clone, Debug, Default)]
@@ -20,16 +23,17 @@ pub(super) struct Rooms {
 
 impl Rooms {
     /// Gives every target a row of its own for each of its rooms, after those of the targets; the tightest rooms are left out
-    /// if there are too many.
-    pub(super) fn new(clear: Clear, targets: &Targets) -> (Self, Targets, EnabledActions) {
+    /// if there are too many. A row has at most `row_length` entries.
+    pub(super) fn new(clear: Clear, targets: &Targets, row_length: usize) -> (Self, Targets, EnabledActions) {
         let Clear { actions, mut with_room } = clear;
+        let most = (ROWS_PER_TARGET * targets.len()).min(MOST_ENTRIES / row_length.max(1));
         let mut rows: Vec<(RowId, Room)> = vec![];
         for least in 0..=RUNGS.len() {
             with_room.retain(|(_, _, room)| room.least() >= Some(least));
             rows = with_room.iter().map(|&(_, target, room)| (target, room)).collect();
             rows.sort_unstable();
             rows.dedup();
-            if rows.len() <= ROWS_PER_TARGET * targets.len() {
+            if rows.len() <= most {
                 break;
             }
         }
