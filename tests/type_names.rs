@@ -16,9 +16,13 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The name of the public type that a line declares; `unreachable_pub` keeps `pub` for what the docs show.
+/// The name of the public type that a line declares, or takes from `imdp`; `unreachable_pub` keeps `pub` for what the
+/// docs show.
 fn declared(line: &str) -> Option<&str> {
     let rest = line.trim_start().strip_prefix("pub ")?;
+    if let Some((_, name)) = rest.strip_prefix("use imdp::").and_then(|path| path.rsplit_once("::")) {
+        return Some(name.trim_end_matches(';'));
+    }
     let rest =
         ["struct ", "enum ", "trait ", "type ", "union "].iter().find_map(|kind| rest.strip_prefix(kind))?;
     rest.split(|c: char| !c.is_alphanumeric() && c != '_').next()
@@ -47,6 +51,7 @@ fn no_public_type_name_occurs_twice_in_a_crate() {
 fn declarations_are_recognised() {
     assert_eq!(declared("pub struct Row<'a> {"), Some("Row"));
     assert_eq!(declared("    pub type Rational = num_rational::BigRational;"), Some("Rational"));
+    assert_eq!(declared("pub use imdp::automaton::Aim;"), Some("Aim"));
     assert_eq!(declared("pub(crate) struct Row;"), None);
     assert_eq!(declared("    pub typed: u32,"), None);
 }

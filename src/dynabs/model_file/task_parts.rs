@@ -8,7 +8,7 @@ use super::task_fields::{
 };
 use crate::Diagnostic;
 use crate::guarantee::Safety;
-use crate::problem::{Aim, Hazard, Leg, Logic, RegionBox, RegionParts, ShapeParts, Task};
+use crate::problem::{Hazard, Leg, Logic, RegionBox, RegionParts, ShapeParts, Task, Wanted};
 use imdp::files;
 use std::path::Path;
 
@@ -36,7 +36,7 @@ pub(super) fn task(spec: TaskSpec, regions: Named<ShapesSpec>, directory: &Path)
 }
 
 /// What is wanted: the field that the type needs, and no field of another type.
-fn aim(spec: TaskSpec, regions: &[RegionParts], directory: &Path) -> Result<Aim, Diagnostic> {
+fn aim(spec: TaskSpec, regions: &[RegionParts], directory: &Path) -> Result<Wanted, Diagnostic> {
     use TaskKind::{Automaton, Formula, Reach, ReachAt, Sequence, Stay};
     let kind = spec.kind;
     for (field, found, of) in [
@@ -57,16 +57,16 @@ fn aim(spec: TaskSpec, regions: &[RegionParts], directory: &Path) -> Result<Aim,
     let goal =
         |goal: Option<Vec<PlaceSpec>>| boxes("/task/goal", &goal.ok_or_else(|| missing("goal"))?, regions);
     Ok(match kind {
-        Reach => Aim::Reach { goal: goal(spec.goal)? },
-        ReachAt => Aim::ReachAt { goal: goal(spec.goal)? },
-        Stay => Aim::Stay { safe: boxes("/task/safe", &spec.safe.unwrap_or_default(), regions)? },
+        Reach => Wanted::Reach { goal: goal(spec.goal)? },
+        ReachAt => Wanted::ReachAt { goal: goal(spec.goal)? },
+        Stay => Wanted::Stay { safe: boxes("/task/safe", &spec.safe.unwrap_or_default(), regions)? },
         Sequence => {
             let legs = spec.sequence.ok_or_else(|| missing("sequence"))?;
-            Aim::Sequence {
+            Wanted::Sequence {
                 legs: legs.into_iter().map(|leg| Leg { reach: leg.reach, avoid: leg.avoid }).collect(),
             }
         }
-        Formula => Aim::Formula {
+        Formula => Wanted::Formula {
             text: spec.formula.ok_or_else(|| missing("formula"))?,
             logic: match spec.logic {
                 None | Some(LogicSpec::Ltl) => Logic::Ltl,
@@ -88,17 +88,17 @@ fn name(kind: TaskKind) -> &'static str {
     }
 }
 
-fn automaton(spec: AutomatonSpec, directory: &Path) -> Result<Aim, Diagnostic> {
+fn automaton(spec: AutomatonSpec, directory: &Path) -> Result<Wanted, Diagnostic> {
     match spec {
         AutomatonSpec { file: Some(file), hoa: None } => {
             let hoa = files::read_text(&directory.join(&file)).map_err(|error| {
                 let found = format!("{file}, which cannot be read: {error}");
                 Diagnostic::at("/task/automaton/file", found, "a text file in the HOA format")
             })?;
-            Ok(Aim::Automaton { file, hoa })
+            Ok(Wanted::Automaton { file, hoa })
         }
         AutomatonSpec { file: None, hoa: Some(hoa) } => {
-            Ok(Aim::Automaton { file: "in the model file".to_owned(), hoa })
+            Ok(Wanted::Automaton { file: "in the model file".to_owned(), hoa })
         }
         AutomatonSpec { file, hoa } => {
             let given = given(&[("file", file.is_some()), ("hoa", hoa.is_some())]);

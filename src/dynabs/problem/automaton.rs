@@ -2,7 +2,7 @@
 
 use super::regions::{RegionBox, region};
 use super::values::{matrix, vector};
-use super::{Aim, Horizon};
+use super::{Horizon, Wanted};
 use crate::Diagnostic;
 use crate::geometry::Polytope;
 use crate::partition::Region;
@@ -94,22 +94,22 @@ pub(super) fn named_regions(parts: &[RegionParts], n: usize) -> Result<Vec<Named
 
 /// The automaton of a task over named regions.
 pub(super) fn automaton(
-    aim: &Aim,
+    aim: &Wanted,
     horizon: Horizon,
     regions: &[NamedRegion],
     unsafe_: &[Region],
 ) -> Result<AutomatonTask, Diagnostic> {
     let names = Names { regions, used: RefCell::default() };
     let (dfa, aim, statement, source) = match aim {
-        Aim::Reach { .. } | Aim::Stay { .. } | Aim::ReachAt { .. } => {
+        Wanted::Reach { .. } | Wanted::Stay { .. } | Wanted::ReachAt { .. } => {
             return Err(Diagnostic::at("/task/type", "a task over boxes", "one over named regions"));
         }
-        Aim::Sequence { legs } => {
+        Wanted::Sequence { legs } => {
             let formula = names.sequence(legs)?;
             let (dfa, aim) = Dfa::of_ltl(&formula).map_err(|error| too_large("/task/sequence", &error))?;
             (dfa, aim, sequence_words(legs), None)
         }
-        Aim::Formula { text, logic } => {
+        Wanted::Formula { text, logic } => {
             let formula = Ltl::parse(text, |name| names.number(name)).map_err(|error| {
                 let place = format!("/task/formula (character {})", error.column);
                 let known: Vec<_> = regions.iter().map(|region| region.name.as_str()).collect();
@@ -127,7 +127,7 @@ pub(super) fn automaton(
             .map_err(|error| too_large("/task/formula", &error))?;
             (dfa, aim, format!("the run satisfies {text}"), None)
         }
-        Aim::Automaton { file, hoa } => {
+        Wanted::Automaton { file, hoa } => {
             let automaton = read_hoa(hoa).map_err(|error| {
                 Diagnostic::at(
                     "/task/automaton",

@@ -58,4 +58,4 @@ pub use noise::{
 pub use probabilities::Probabilities;
 pub use problem::{Actions, Objective, Problem, TargetPoints};
 pub use regions::{Partition, RegionBox, TargetChoice};
-pub use task::{Aim, Hazard, Horizon, Task};
+pub use task::{Hazard, Horizon, Task, Wanted};

@@ -16,7 +16,7 @@ use imdp::property::Probability;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Task {
     /// What is wanted.
-    pub aim: Aim,
+    pub aim: Wanted,
     /// What must be avoided.
     pub unsafe_: Vec<Hazard>,
     /// The number of original steps.
@@ -40,7 +40,7 @@ pub enum Hazard {
 
 /// What is wanted besides safety.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Aim {
+pub enum Wanted {
     /// To reach a union of boxes; a cell counts if the union contains it.
     Reach {
         /// The boxes.
@@ -90,7 +90,7 @@ impl Task {
     /// To reach a union of boxes some time.
     pub fn reach(goal: Vec<RegionBox>) -> Self {
         Self {
-            aim: Aim::Reach { goal },
+            aim: Wanted::Reach { goal },
             unsafe_: vec![],
             horizon: Horizon::Infinite,
             threshold: None,
@@ -101,12 +101,12 @@ impl Task {
 
     /// To stay in a union of boxes for ever; in the whole partition if there are none.
     pub fn stay(safe: Vec<RegionBox>) -> Self {
-        Self { aim: Aim::Stay { safe }, ..Self::reach(vec![]) }
+        Self { aim: Wanted::Stay { safe }, ..Self::reach(vec![]) }
     }
 
     /// To satisfy a formula of linear temporal logic over these regions.
     pub fn formula(text: impl Into<String>, logic: Logic, regions: Vec<RegionParts>) -> Self {
-        Self { aim: Aim::Formula { text: text.into(), logic }, regions, ..Self::reach(vec![]) }
+        Self { aim: Wanted::Formula { text: text.into(), logic }, regions, ..Self::reach(vec![]) }
     }
 
     /// Avoiding these boxes too.
@@ -174,9 +174,9 @@ impl CheckedTask {
         }
         Need::of_cells(grid).check().map_err(|error| Diagnostic::from(&error))?;
         let objective = match &task.aim {
-            Aim::Reach { goal } => Objective::Reach { goal: reach(goal, (&unsafe_, &places), grid)? },
-            Aim::Stay { safe } => Objective::Stay { safe: stay(safe, &unsafe_, grid)? },
-            Aim::ReachAt { goal } => {
+            Wanted::Reach { goal } => Objective::Reach { goal: reach(goal, (&unsafe_, &places), grid)? },
+            Wanted::Stay { safe } => Objective::Stay { safe: stay(safe, &unsafe_, grid)? },
+            Wanted::ReachAt { goal } => {
                 let goal = reach(goal, (&unsafe_, &places), grid)?;
                 Objective::Automaton(Box::new(at_step(goal, &unsafe_, task.horizon)?))
             }
