@@ -19,10 +19,16 @@ mod images;
 mod invariant;
 mod kernel;
 mod layers;
+mod masses;
 mod model;
+mod move_layers;
+#[cfg(test)]
+mod move_tests;
+mod moves;
 mod side;
 mod solve;
 mod stage;
+mod stencil;
 mod step;
 mod taps;
 #[cfg(test)]
@@ -33,7 +39,8 @@ mod windows;
 pub use axis::Axis;
 pub use images::{ImageSource, Images, LandingError, SizeClass, SubCells};
 pub use model::LandingModel;
-pub use side::{Lower, Side, Upper};
+pub use side::{Lower, Side, Slack, Upper};
 pub use solve::{Aim, LandingSolution, Question};
+pub use stencil::{Band, Stencil, Tap};
 pub use step::{Best, Landing};
 pub use taps::Taps;

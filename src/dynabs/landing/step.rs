@@ -2,6 +2,8 @@
 
 use super::axis::Axis;
 use super::images::Images;
+use super::moves::{Move, Span};
+use super::stencil::Stencil;
 use super::side::Side;
 use super::stage::Stage;
 use super::taps::Taps;
@@ -18,6 +20,10 @@ pub struct Landing {
     axes: Vec<Axis>,
     /// In the order in which they are applied, with the axis that each is about.
     stages: Vec<(usize, Stage)>,
+    /// The axes of the array after all stages: those above, if there are no moves.
+    inner: Vec<Axis>,
+    /// What else the noise does, before what the stages do.
+    moves: Vec<Move>,
     extents: Vec<Extent>,
 }
 
@@ -33,7 +39,25 @@ pub struct Best {
 impl Landing {
     /// A lattice with these axes, row-major.
     pub fn new(axes: Vec<Axis>) -> Self {
-        let mut stages: Vec<_> = axes.iter().map(Stage::new).enumerate().collect();
+        Self::between(axes.clone(), axes, vec![])
+    }
+
+    /// A lattice with these axes, none of which has noise of its own, and noise that moves what lands on it: one after
+    /// the other. Images occupy sub-cells from `images[j].0` to `images[j].1`.
+    pub fn with_noise_in_boxes(axes: Vec<Axis>, images: &[(i64, i64)], noise: &[Stencil]) -> Self {
+        let lengths: Vec<usize> = axes.iter().map(|axis| axis.cells * axis.resolution).collect();
+        let periodic: Vec<bool> = axes.iter().map(|axis| axis.periodic).collect();
+        let moves = Move::chain(noise, &lengths, &periodic, images);
+        let over = |spans: &[Span]| -> Vec<Axis> {
+            let axes = axes.iter().zip(spans);
+            axes.map(|(axis, span)| Axis { first: span.first, len: span.len, ..axis.clone() }).collect()
+        };
+        let (Some(first), Some(last)) = (moves.first(), moves.last()) else { return Self::new(axes) };
+        Self::between(over(&first.from), over(&last.to), moves)
+    }
+
+    fn between(axes: Vec<Axis>, inner: Vec<Axis>, moves: Vec<Move>) -> Self {
+        let mut stages: Vec<_> = inner.iter().map(Stage::new).enumerate().collect();
         // Those that make the array longer last: the others then have less to do.
         stages.sort_by(|(_, a), (_, b)| a.growth().total_cmp(&b.growth()));
         let mut stride = axes.iter().map(|axis| axis.len).product::<usize>();
@@ -41,7 +65,7 @@ impl Landing {
             stride /= axis.len;
             Extent { len: axis.len, stride, periodic: axis.periodic }
         };
-        Self { extents: axes.iter().map(extent).collect(), stages, axes }
+        Self { extents: axes.iter().map(extent).collect(), stages, inner, moves, axes }
     }
 
     /// The axes.
@@ -51,6 +75,16 @@ impl Landing {
 
     pub(super) fn stages(&self) -> &[(usize, Stage)] {
         &self.stages
+    }
+
+    /// The axes of the array after all stages.
+    pub(super) fn inner(&self) -> &[Axis] {
+        &self.inner
+    }
+
+    /// What the noise does before the stages, in this order.
+    pub(super) fn moves(&self) -> &[Move] {
+        &self.moves
     }
 
     /// The number of cells of the partition.
@@ -64,6 +98,9 @@ impl Landing {
         &self,
         noise: impl Iterator<Item = Option<Option<Taps>>>,
     ) -> Option<(Self, f64)> {
+        if !self.moves.is_empty() {
+            return None;
+        }
         let mut axes = self.axes.clone();
         let mut least = 1.0;
         for (axis, noise) in axes.iter_mut().zip(noise) {
@@ -80,12 +117,15 @@ impl Landing {
     /// The landing value `G` of every sub-cell that is looked at, for the values of all cells.
     pub fn values<S: Side>(&self, of_cells: &[f64]) -> Vec<f64> {
         let mut values: Vec<f64> = of_cells.iter().map(|&v| S::above_underflow(v)).collect();
-        let mut shape: Vec<usize> = self.axes.iter().map(|axis| axis.cells).collect();
+        let mut shape: Vec<usize> = self.inner.iter().map(|axis| axis.cells).collect();
         for (j, stage) in &self.stages {
             let inner = shape[j + 1..].iter().product();
             values = stage.apply::<S>(&values, inner);
             values.iter_mut().for_each(|v| *v = S::above_underflow(*v));
             shape[*j] = stage.axis().len;
+        }
+        for noise in self.moves.iter().rev() {
+            values = noise.apply::<S>(&values);
         }
         values
     }
@@ -122,6 +162,7 @@ impl Landing {
     /// Bytes that a step needs at most, beside the values: the arrays of stages and windows.
     pub fn bytes(&self) -> u64 {
         let lattice: u64 = self.extents.iter().map(|extent| extent.len as u64).product();
-        8 * lattice * (3 + self.extents.len() as u64)
+        let inner: u64 = self.inner.iter().map(|axis| axis.len as u64).product();
+        8 * (lattice * (3 + self.extents.len() as u64) + 2 * inner)
     }
 }
