@@ -3,7 +3,7 @@
 use super::Decision;
 use super::schedule::{Entry, Schedule};
 use crate::abstraction::inputs::InputAbstraction;
-use crate::guarantee::{Bound, Event, Evidence, Guarantee};
+use crate::guarantee::{Bound, Event, Guarantee};
 use crate::landing::LandingSolution;
 use crate::partition::{CellId, CellKind, CellLookup};
 use crate::problem::InputProblem;
@@ -44,7 +44,7 @@ impl InputController {
         let initial = abstraction.initial(problem.initial_cell());
         let guarantee = Guarantee {
             event: Event::of_inputs(problem),
-            evidence: Evidence::Known { unlisted: abstraction.unlisted() },
+            evidence: abstraction.evidence.clone(),
         };
         Self {
             lookup: CellLookup::new(grid),

@@ -34,7 +34,7 @@ impl Document {
     pub fn stated(&self) -> Result<StatedProblem, Diagnostic> {
         let stated = self.model().and_then(|file| match actions(&file) {
             ActionsSpec::Inputs => {
-                InputProblem::new(input_parts(file)?).map(|problem| StatedProblem::Inputs(Box::new(problem)))
+                InputProblem::new(input_parts(file, &self.directory)?).map(|problem| StatedProblem::Inputs(Box::new(problem)))
             }
             ActionsSpec::Targets => {
                 let problem = builder(file, &self.directory)?.build();
@@ -61,7 +61,9 @@ impl Document {
 
 /// The kind of actions: as stated, or what the other fields ask for.
 fn actions(file: &ModelFile) -> ActionsSpec {
-    let steered = file.noise.components.is_none() && file.dynamics.beyond_matrices().is_none();
+    let is_known = file.noise.gaussian.is_some() && file.noise.count.is_none();
+    let steered = file.noise.components.is_none() && !is_known && file.noise.independent.is_none();
+    let steered = steered && file.dynamics.beyond_matrices().is_none();
     let default = if steered { ActionsSpec::Targets } else { ActionsSpec::Inputs };
     file.actions.unwrap_or(default)
 }
@@ -106,7 +108,7 @@ fn builder(file: ModelFile, directory: &Path) -> Result<ProblemBuilder, Diagnost
 
 /// The way out if steering to targets cannot do something.
 const INPUTS: &str =
-    "With \"actions\": \"inputs\" the controller chooses from inputs, for any dynamics and known noise.";
+    "With \"actions\": \"inputs\" the controller chooses from inputs, for any dynamics and any noise.";
 
 fn missing(name: &str) -> Diagnostic {
     Diagnostic::at("", format!("no field `{name}`"), format!("the field `{name}`"))
@@ -201,7 +203,7 @@ fn region_box(spec: RegionSpec) -> RegionBox {
     RegionBox { lower: side(spec.lower, f64::NEG_INFINITY), upper: side(spec.upper, f64::INFINITY) }
 }
 
-fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {
+pub(super) fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {
     match spec {
         NoiseSpec {
             samples: Some(SamplesSpec { file, of }),
@@ -209,6 +211,7 @@ fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {
             components: None,
             count: None,
             seed: None,
+            independent: None,
         } => {
             let of = match of {
                 SampleKindSpec::Grouped => SampleKind::Grouped,
@@ -222,6 +225,7 @@ fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {
             components: None,
             count,
             seed,
+            independent: None,
         } => {
             let count = count
                 .ok_or_else(|| Diagnostic::at("/noise/count", "nothing", "the number of samples to draw"))?;
@@ -235,14 +239,15 @@ fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {
                 ("components", spec.components.is_some()),
                 ("count", spec.count.is_some()),
                 ("seed", spec.seed.is_some()),
+                ("independent", spec.independent.is_some()),
             ]);
             let found = if given.is_empty() { "nothing".to_owned() } else { given };
-            Err(Diagnostic::at("/noise", found, "either {samples} or {gaussian, count, seed}"))
+            Err(Diagnostic::at("/noise", found, "either {samples} or {gaussian, count, seed}").remedy(INPUTS))
         }
     }
 }
 
-fn probabilities(spec: &ProbabilitiesSpec) -> Result<Probabilities, Diagnostic> {
+pub(super) fn probabilities(spec: &ProbabilitiesSpec) -> Result<Probabilities, Diagnostic> {
     let foreign = |field: &str, mode: &str| {
         let (place, expected) =
             (format!("/probabilities/{field}"), format!("only fields of mode \"{mode}\""));

@@ -2,11 +2,11 @@
 
 use super::input_check::{InputCheck, Violation};
 use super::runs::{End, RunOutcome};
-use super::{Tally, Trajectory, TrajectoryStep};
+use super::{Noise, Tally, Trajectory, TrajectoryStep};
 use crate::controller::{Decision, InputController};
 use crate::landing::Aim;
 use crate::partition::RegionLookup;
-use crate::problem::{InputProblem, Objective};
+use crate::problem::{InputNoise, InputProblem, Objective};
 use imdp::progress::Progress;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha12Rng;
@@ -34,6 +34,8 @@ pub struct InputSimulation<'a> {
     wanted: Vec<RegionLookup>,
     avoid: Vec<RegionLookup>,
     parameters: ParameterChoice,
+    /// Where the noise comes from if only samples are known.
+    sampled: Option<Noise>,
     most_steps: u64,
 }
 
@@ -60,6 +62,7 @@ impl<'a> InputSimulation<'a> {
             wanted: lookups(wanted),
             avoid: lookups(problem.unsafe_regions()),
             parameters,
+            sampled: problem.noise().samples().map(|samples| Noise::of(&samples.noise)),
             most_steps: problem.horizon().unwrap_or(most_steps),
         }
     }
@@ -150,12 +153,24 @@ impl<'a> InputSimulation<'a> {
         }
     }
 
+    /// The noise of one step, as truly as it is known.
+    fn draw(&self, dimension: usize, rng: &mut impl Rng) -> Vec<f64> {
+        let mut noise = vec![0.0; dimension];
+        match (self.problem.noise(), &self.sampled) {
+            (InputNoise::Components(components), _) => {
+                let drawn = components.iter().map(|one| one.as_ref().map_or(0.0, |one| one.draw(rng)));
+                noise = drawn.collect();
+            }
+            (InputNoise::Gaussian(joint), _) => joint.draws.draw(rng, &mut noise),
+            (InputNoise::Sampled(_), Some(source)) => source.draw(rng, &mut noise),
+            (InputNoise::Sampled(_), None) => {}
+        }
+        noise
+    }
+
     /// The next state, its periodic coordinates in the partition.
     fn step(&self, x: &[f64], u: &[f64], rng: &mut impl Rng, scratch: &mut Vec<f64>) -> Vec<f64> {
-        let draw = |noise: &Option<crate::noise::known::Distribution>| {
-            noise.as_ref().map_or(0.0, |noise| noise.draw(rng))
-        };
-        let noise: Vec<f64> = self.problem.noise().iter().map(draw).collect();
+        let noise = self.draw(x.len(), rng);
         let boxes = self.problem.mode().parameters();
         let mut go = |parameters: &[f64]| {
             let mut next = vec![0.0; x.len()];
