@@ -1,9 +1,11 @@
 //! How often the promises are broken, over thousands of sample sets from known distributions.
 //!
-//! `cargo bench --bench coverage [-- REPLICATIONS]` prints a Markdown table; ends with 1 if some claim fails more
+//! `cargo bench --bench coverage [-- REPLICATIONS]` prints two Markdown tables; ends with 1 if some claim fails more
 //! often than promised.
 #![allow(missing_docs, clippy::unwrap_used, unreachable_pub)]
 
+#[path = "../coverage/between.rs"]
+mod between;
 #[path = "../coverage/noise.rs"]
 mod noise;
 #[path = "../coverage/replication.rs"]
@@ -11,6 +13,7 @@ mod replication;
 #[path = "../coverage/truth.rs"]
 mod truth;
 
+use between::{BetweenFailures, Experiment, Layers};
 use dynabs::statistics::{lower_bound, upper_bound};
 use noise::Noise;
 use rayon::prelude::*;
@@ -38,13 +41,7 @@ fn main() -> ExitCode {
             let failures = run(layout, noise, replications);
             kept &= failures.rows as f64 <= BETA * replications as f64;
             kept &= failures.values as f64 <= BETA * replications as f64;
-            let cell = |count| {
-                let percent = |p: f64| 100.0 * p;
-                let (low, high) =
-                    (lower_bound(count, replications, TAIL), upper_bound(count, replications, TAIL));
-                let rate = count as f64 / replications as f64;
-                format!("{:.2} % [{:.2}, {:.2}]", percent(rate), percent(low), percent(high))
-            };
+            let cell = |count| frequency(count, replications);
             println!(
                 "| {noise:?} | {layout:?} | {} | {} | {} | {} | {} | {} | {} |",
                 cell(failures.values),
@@ -57,7 +54,42 @@ fn main() -> ExitCode {
             );
         }
     }
+    println!("\nTwo steps grouped, with a limit in between:\n");
+    println!(
+        "| layers | promised at best | value above truth | rows | rows at instants | lower bounds of all noise |"
+    );
+    println!("|---|---|---|---|---|---|");
+    let experiment = Experiment::new();
+    for layers in [Layers::One, Layers::Two] {
+        let failures = run_between(&experiment, layers, replications);
+        kept &= failures.rows.max(failures.values) as f64 <= BETA * replications as f64;
+        let cell = |count| frequency(count, replications);
+        println!(
+            "| {layers:?} | {:.4} | {} | {} | {} | {} |",
+            experiment.best_value(layers, BETA, 0),
+            cell(failures.values),
+            cell(failures.rows),
+            cell(failures.rows_at_instants),
+            cell(failures.without_condition)
+        );
+    }
     if kept { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+/// A frequency with its interval, in percent.
+fn frequency(count: u64, replications: u64) -> String {
+    let (low, high) = (lower_bound(count, replications, TAIL), upper_bound(count, replications, TAIL));
+    let rate = count as f64 / replications as f64;
+    format!("{:.2} % [{:.2}, {:.2}]", 100.0 * rate, 100.0 * low, 100.0 * high)
+}
+
+fn run_between(experiment: &Experiment, layers: Layers, replications: u64) -> BetweenFailures {
+    let one = |seed| experiment.replicate(layers, BETA, 1_000_000 + seed);
+    let add = |mut all: BetweenFailures, one| {
+        all += one;
+        all
+    };
+    (0..replications).into_par_iter().map(one).reduce(BetweenFailures::default, add)
 }
 
 fn run(layout: Layout, noise: Noise, replications: u64) -> Failures {

@@ -8,8 +8,10 @@ mod noise;
 mod replication;
 mod truth;
 
-use between::BetweenFailures;
+use between::{BetweenFailures, Experiment, Layers};
+use dynabs::statistics::{lower_bound, upper_bound};
 use noise::Noise;
+use rayon::prelude::*;
 use replication::{Failures, replicate};
 use truth::Layout;
 
@@ -82,15 +84,20 @@ fn boxes_have_the_measure_that_samples_say() {
 
 #[test]
 fn every_step_of_a_group_is_covered() {
-    assert!(between::best_value(SAMPLES, BETA, 1) > 0.5);
-    let mut failures = BetweenFailures::default();
-    for seed in 0..REPLICATIONS / 2 {
-        failures += between::replicate(SAMPLES, BETA, seed);
+    let experiment = Experiment::new();
+    for layers in [Layers::One, Layers::Two] {
+        assert!(experiment.best_value(layers, BETA, 1) > 0.5);
+        let mut failures = BetweenFailures::default();
+        let one = |seed| experiment.replicate(layers, BETA, seed);
+        let all: Vec<BetweenFailures> = (0..REPLICATIONS).into_par_iter().map(one).collect();
+        all.into_iter().for_each(|one| failures += one);
+        println!("in between, {layers:?}, {REPLICATIONS} replications: {failures:?}");
+        // If promises failed with probability β, so few failures were less likely than one in a thousand.
+        let at_most = |count| upper_bound(count, REPLICATIONS, 0.001);
+        assert!(at_most(failures.rows) < BETA && at_most(failures.values) < BETA, "{failures:?}");
+        // Controls: what holds at grouped instants does not hold at every step, nor does a count of all samples.
+        let at_least = |count| lower_bound(count, REPLICATIONS, 0.001);
+        assert!(at_least(failures.rows_at_instants) > 2.0 * BETA, "{failures:?}");
+        assert!(at_least(failures.without_condition) > 2.0 * BETA, "{failures:?}");
     }
-    println!("in between, {} replications: {failures:?}", REPLICATIONS / 2);
-    let rate = |count: u64| count as f64 / (REPLICATIONS / 2) as f64;
-    assert!(rate(failures.rows) <= BETA && rate(failures.values) <= BETA, "{failures:?}");
-    // Controls: what holds at grouped instants does not hold at every step, nor does a count of all samples.
-    assert!(rate(failures.rows_at_instants) > 2.0 * BETA, "{failures:?}");
-    assert!(rate(failures.without_condition) > BETA, "{failures:?}");
 }

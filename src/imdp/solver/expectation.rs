@@ -81,7 +81,7 @@ impl RowBlock {
 
 /// The least expectation of `values ≥ 0` that each row allows, rounded down.
 pub fn worst_expectations(rows: &Rows, values: &[f64]) -> Vec<f64> {
-    let all = (0..rows.len() as RowId).collect();
+    let all = RowId::first(rows.len()).collect();
     RowBlock::new(rows, all).evaluate(rows, values, Direction::Min, Bound::Lower)
 }
 
@@ -100,10 +100,10 @@ fn expectation(
 ) -> f64 {
     if order.len() < 2 {
         // A single successor has all the mass.
-        return values[row.successors[0] as usize];
+        return values[row.successors[0].index()];
     }
     scratch.clear();
-    scratch.extend(row.successors.iter().map(|&s| values[s as usize]));
+    scratch.extend(row.successors.iter().map(|&s| values[s.index()]));
     sort(order, scratch);
     // Successors that cannot have any mass bound nothing.
     let possible = |i: &&u32| row.upper[**i as usize] > 0.0;
@@ -169,7 +169,7 @@ fn pour<'a>(
 /// The distribution that attains the optimum, up to rounding: `p − l` by position.
 pub(super) fn poured_mass(row: Row<'_>, values: &[f64], nature: Direction) -> Vec<f64> {
     let mut order: Vec<usize> = (0..row.len()).collect();
-    order.sort_by(|&i, &j| values[row.successors[i] as usize].total_cmp(&values[row.successors[j] as usize]));
+    order.sort_by(|&i, &j| values[row.successors[i].index()].total_cmp(&values[row.successors[j].index()]));
     if nature == Direction::Max {
         order.reverse();
     }
