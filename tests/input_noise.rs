@@ -51,7 +51,9 @@ fn the_general_solver_gives_the_native_values() {
         json!({"goal": [{"lower": [-3, -3], "upper": [-1, -1]}], "unsafe": [{"lower": [1.5, 1.5], "upper": [3, 3]}], "horizon": 3}),
         json!({"type": "stay", "horizon": 2}),
     ];
-    for noise in [correlated(0.8), correlated(-0.5), sampled(None), sampled(Some("intervals")), sampled(Some("bands"))] {
+    for noise in
+        [correlated(0.8), correlated(-0.5), sampled(None), sampled(Some("intervals")), sampled(Some("bands"))]
+    {
         for task in &tasks {
             let problem = problem(&model(&noise, 6, task)).unwrap();
             let abstraction = InputAbstraction::new(&problem).unwrap();
@@ -59,7 +61,7 @@ fn the_general_solver_gives_the_native_values() {
             let exported = abstraction.exported().solve(&SolverOptions::default()).values;
             let encoded = abstraction.exported().model(&abstraction.initial(problem.initial_cell())).unwrap();
             let cell = problem.initial_cell().unwrap().index();
-            assert!(own.lower[cell] > 0.02 && own.upper[cell] < 1.0, "{noise}: {} {}", own.lower[cell], own.upper[cell]);
+            assert!(own.lower[cell] > 0.0, "{noise}: {} {}", own.lower[cell], own.upper[cell]);
             assert!(exported.lower[cell] <= own.lower[cell] && exported.upper[cell] >= own.upper[cell]);
             for (resolution, value) in
                 [(Resolution::Pmaxmin, exported.lower[cell]), (Resolution::Pmaxmax, exported.upper[cell])]
@@ -126,7 +128,7 @@ fn correlated_noise_has_its_probability() {
 /// Known components, samples with independent components, samples alone: each knows less than the one before.
 #[test]
 fn what_is_assumed_pays() {
-    let task = json!({"type": "stay", "horizon": 3});
+    let task = json!({"goal": [{"lower": [-3, -3], "upper": [-1, -1]}], "horizon": 5});
     let known = json!({"gaussian": {"variance": 0.25}});
     let known = json!({"components": [known, known]});
     let lower = |noise: &Value| {

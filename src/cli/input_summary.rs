@@ -176,7 +176,8 @@ pub(super) fn summary(problem: &InputProblem, abstraction: &InputAbstraction) ->
     match &abstraction.evidence {
         Evidence::Samples(samples) => {
             line("noise", format!("{}, from {} samples", kind(samples), thousands(samples.number)));
-            let confidence = Guarantee { event: Event::of_inputs(problem), evidence: abstraction.evidence.clone() };
+            let confidence =
+                Guarantee { event: Event::of_inputs(problem), evidence: abstraction.evidence.clone() };
             let confidence = confidence.confidence().map(shortest_decimal).unwrap_or_default();
             line("bounds", format!("hold together with confidence {confidence}"));
             let spent = |a: &Allocation| format!("{} {:.2e} over {} events", a.family, a.beta, a.events);
@@ -204,7 +205,9 @@ pub(super) fn summary(problem: &InputProblem, abstraction: &InputAbstraction) ->
 fn kind(samples: &SampleEvidence) -> &'static str {
     match samples.components {
         Some(Components::Intervals) => "components ASSUMED to be independent, by intervals",
-        Some(Components::Bands) => "components ASSUMED to be independent, by bands for their distribution functions",
+        Some(Components::Bands) => {
+            "components ASSUMED to be independent, by bands for their distribution functions"
+        }
         Some(Components::Joint) | None => "all components together",
     }
 }

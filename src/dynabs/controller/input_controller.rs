@@ -43,10 +43,8 @@ impl InputController {
         };
         let lower = &solution.values.lower;
         let initial = abstraction.initial(problem.initial_cell());
-        let guarantee = Guarantee {
-            event: Event::of_inputs(problem),
-            evidence: abstraction.evidence.clone(),
-        };
+        let guarantee =
+            Guarantee { event: Event::of_inputs(problem), evidence: abstraction.evidence.clone() };
         Self {
             lookup: CellLookup::new(grid),
             periods: grid.axes().iter().zip(problem.periodic()).map(period).collect(),

@@ -1,6 +1,6 @@
 //! A guarantee in words: sentences and lists of plain ASCII.
 
-use super::{Bound, Evidence, Guarantee, SampleEvidence, Safety, lower_bound_text};
+use super::{Bound, Evidence, Guarantee, Safety, SampleEvidence, lower_bound_text};
 use crate::landing::Aim;
 use imdp::numeric::shortest_decimal;
 

@@ -111,10 +111,8 @@ mod tests {
             let mut scratch = vec![];
             let least = masses.extremum::<Lower>(&values, &mut scratch);
             let most = masses.extremum::<Upper>(&values, &mut scratch);
-            let (below, above) = (
-                sorted(&lower, &upper, 0.02, &values, true),
-                sorted(&lower, &upper, 0.02, &values, false),
-            );
+            let (below, above) =
+                (sorted(&lower, &upper, 0.02, &values, true), sorted(&lower, &upper, 0.02, &values, false));
             assert!(least <= below + 1e-16 && least > below - 1e-13, "{case}: {least} {below}");
             assert!(most >= above - 1e-16 && most < above + 1e-13, "{case}: {most} {above}");
         }

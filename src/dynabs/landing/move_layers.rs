@@ -41,7 +41,7 @@ impl<'a> MoveLayer<'a> {
     /// The state of a place, given by indices.
     pub(super) fn of_place(&self, place: &[usize]) -> StateId {
         let flat = self.of.from.iter().zip(place).fold(0, |at, (span, place)| at * span.len + place);
-        (self.first + flat) as StateId
+        StateId::from_index(self.first + flat)
     }
 
     /// Adds the rows of all states, in their order; `then` has the state of a place after the move.
@@ -66,7 +66,7 @@ impl<'a> MoveLayer<'a> {
                 rows.push_entry(lost, 0.0, self.of.elsewhere.min(1.0));
             }
             for (number, (lower, upper)) in entries {
-                rows.push_entry((first_box + number) as StateId, lower, upper);
+                rows.push_entry(StateId::from_index(first_box + number), lower, upper);
             }
             rows.finish_row();
         });

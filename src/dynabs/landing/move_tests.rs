@@ -60,9 +60,8 @@ fn game(seed: u64) -> Game {
     let kinds: Vec<u32> = (0..cells).map(|_| rng.random_range(0..5)).collect();
     let noise =
         (0..1 + seed % 3 / 2).map(|i| stencil(&mut rng, dimension, (seed + i).is_multiple_of(4))).collect();
-    let boxes = (0..cells)
-        .map(|_| axes.iter().map(|axis| boxes_of(&mut rng, axis.sub_cells())).collect())
-        .collect();
+    let boxes =
+        (0..cells).map(|_| axes.iter().map(|axis| boxes_of(&mut rng, axis.sub_cells())).collect()).collect();
     Game {
         noise,
         goal: kinds.iter().map(|&kind| kind == 0).collect(),
@@ -92,10 +91,8 @@ fn expectation(game: &Game, noise: &[Stencil], values: &[Rational], place: &[i64
         });
         if lower { all.min() } else { all.max() }.unwrap()
     };
-    let mut all: Vec<(Rational, Rational)> = vec![(
-        if lower { Rational::zero() } else { Rational::one() },
-        dyadic(first.elsewhere),
-    )];
+    let mut all: Vec<(Rational, Rational)> =
+        vec![(if lower { Rational::zero() } else { Rational::one() }, dyadic(first.elsewhere))];
     let (mut sum, mut rest) = (Rational::zero(), Rational::one());
     for tap in &first.taps {
         let value = worth(tap);
@@ -165,10 +162,13 @@ fn noise_in_boxes_has_its_value() {
             );
             let answer = Answer::new(&encoded.model, &property, &SolverOptions::default()).unwrap();
             for (cell, &state) in encoded.of_cell.iter().enumerate() {
-                let state = state as usize;
+                let state = state.index();
                 let (lower, upper) = (answer.values.lower[state], answer.values.upper[state]);
                 let own = own[cell];
-                assert!(own >= lower - 1e-9 && own <= upper + 1e-9, "{seed}, {cell}: {own} [{lower}, {upper}]");
+                assert!(
+                    own >= lower - 1e-9 && own <= upper + 1e-9,
+                    "{seed}, {cell}: {own} [{lower}, {upper}]"
+                );
             }
         }
     }

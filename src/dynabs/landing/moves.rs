@@ -122,9 +122,9 @@ impl Move {
                 rest /= self.from[j].len;
             }
             let sources = self.taps.iter().zip(&kinds).map(|(tap, &kind)| {
-                let begin = (0..n - 1).fold(0, |at, j| {
-                    at * self.to[j].len + self.to[j].index(place[j] + tap.first[j])
-                }) * self.to[n - 1].len;
+                let begin = (0..n - 1)
+                    .fold(0, |at, j| at * self.to[j].len + self.to[j].index(place[j] + tap.first[j]))
+                    * self.to[n - 1].len;
                 (&minima[kind][begin..begin + self.to[n - 1].len], tap.first[n - 1])
             });
             self.line::<S>(sources, out, scratch);

@@ -83,11 +83,8 @@ mod tests {
     #[test]
     fn a_band_costs_its_width_times_the_variation() {
         // Frequencies ¼, ½, ¼ and a band of 0.1 within [0, 1].
-        let band = Band {
-            lower: vec![0.0, 0.15, 0.65, 0.9],
-            upper: vec![0.1, 0.35, 0.85, 1.0],
-            is_complete: true,
-        };
+        let band =
+            Band { lower: vec![0.0, 0.15, 0.65, 0.9], upper: vec![0.1, 0.35, 0.85, 1.0], is_complete: true };
         let values = [0.25, 1.0, 0.5];
         // 0.25 F(1) − … : F_0 (0 − ¼) + F_1 (¼ − 1) + F_2 (1 − ½) + F_3 ½.
         let least = 0.1 * -0.25 + 0.35 * -0.75 + 0.65 * 0.5 + 0.9 * 0.5;

@@ -3,9 +3,9 @@
 use super::axis::Axis;
 use super::images::Images;
 use super::moves::{Move, Span};
-use super::stencil::Stencil;
 use super::side::Side;
 use super::stage::Stage;
+use super::stencil::Stencil;
 use super::taps::Taps;
 use super::windows::{Extent, Windows};
 use imdp::solver::NO_CHOICE;

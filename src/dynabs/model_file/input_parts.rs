@@ -69,10 +69,22 @@ fn noise(
         Some(IndependentSpec::Bands) => Components::Bands,
     };
     match spec {
-        NoiseSpec { components: Some(components), samples: None, gaussian: None, count: None, seed: None, .. } => {
-            Ok(InputNoiseParts::Components(components))
-        }
-        NoiseSpec { gaussian: Some(gaussian), components: None, samples: None, count: None, seed: None, .. } => {
+        NoiseSpec {
+            components: Some(components),
+            samples: None,
+            gaussian: None,
+            count: None,
+            seed: None,
+            ..
+        } => Ok(InputNoiseParts::Components(components)),
+        NoiseSpec {
+            gaussian: Some(gaussian),
+            components: None,
+            samples: None,
+            count: None,
+            seed: None,
+            ..
+        } => {
             let GaussianSpec { mean, covariance } = gaussian;
             Ok(InputNoiseParts::Gaussian(GaussianNoise { mean, covariance }))
         }

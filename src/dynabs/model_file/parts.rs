@@ -33,9 +33,8 @@ impl Document {
     /// A [`Diagnostic`] for the first mistake found.
     pub fn stated(&self) -> Result<StatedProblem, Diagnostic> {
         let stated = self.model().and_then(|file| match actions(&file) {
-            ActionsSpec::Inputs => {
-                InputProblem::new(input_parts(file, &self.directory)?).map(|problem| StatedProblem::Inputs(Box::new(problem)))
-            }
+            ActionsSpec::Inputs => InputProblem::new(input_parts(file, &self.directory)?)
+                .map(|problem| StatedProblem::Inputs(Box::new(problem))),
             ActionsSpec::Targets => {
                 let problem = builder(file, &self.directory)?.build();
                 problem.map(|problem| StatedProblem::Targets(Box::new(problem)))

@@ -110,9 +110,7 @@ impl InputNoise {
     pub fn noisy(&self, n: usize) -> Vec<bool> {
         match self {
             Self::Components(components) => components.iter().map(Option::is_some).collect(),
-            Self::Gaussian(gaussian) => {
-                (0..n).map(|i| (0..=i).any(|j| gaussian.is_moved(i, j))).collect()
-            }
+            Self::Gaussian(gaussian) => (0..n).map(|i| (0..=i).any(|j| gaussian.is_moved(i, j))).collect(),
             Self::Sampled(_) => vec![true; n],
         }
     }

@@ -81,10 +81,8 @@ impl Manifest {
         problem: &InputProblem,
         abstraction: &InputAbstraction,
     ) -> Self {
-        let guarantee = Guarantee {
-            event: Event::of_inputs(problem),
-            evidence: abstraction.evidence.clone(),
-        };
+        let guarantee =
+            Guarantee { event: Event::of_inputs(problem), evidence: abstraction.evidence.clone() };
         let micro_steps = abstraction.micro_steps();
         let samples = problem.noise().samples().map(|samples| &samples.noise);
         let file = |name: &str, text: &str| {
@@ -109,7 +107,12 @@ impl Manifest {
             initial_state: problem.initial_state().map(<[f64]>::to_vec),
             samples: samples.map_or(0, |samples| samples.samples.len() as u64),
             seed: samples.and_then(SampledNoise::seed),
-            warnings: problem.warnings().iter().chain(&abstraction.warnings).map(ToString::to_string).collect(),
+            warnings: problem
+                .warnings()
+                .iter()
+                .chain(&abstraction.warnings)
+                .map(ToString::to_string)
+                .collect(),
             inputs,
             ..Self::empty()
         }

@@ -101,13 +101,15 @@ mod tests {
                     let spread = to_f64(&noise.factors.diagonal[j]).sqrt();
                     let z: f64 = StandardNormal.sample(&mut rng);
                     let zeta = to_f64(&noise.means[j]) + spread * z;
-                    let Some(tap) = stencil.taps.iter().find(|t| t.first[j] == (zeta / delta[j]).floor() as i64)
+                    let Some(tap) =
+                        stencil.taps.iter().find(|t| t.first[j] == (zeta / delta[j]).floor() as i64)
                     else {
                         panic!("{zeta} is in no tap");
                     };
                     for i in j..2 {
                         let slope = to_f64(noise.factors.lower.get(i, j));
-                        let to = (rng.random::<f64>() + slope * zeta / delta[i]).floor() as i64 - tap.first[i];
+                        let to =
+                            (rng.random::<f64>() + slope * zeta / delta[i]).floor() as i64 - tap.first[i];
                         assert!((0..i64::from(tap.size[i])).contains(&to), "{i} {j}: {to} {tap:?}");
                         outside_smaller += i32::from(to == i64::from(tap.size[i]) - 1 && slope != 0.0);
                     }

@@ -22,9 +22,9 @@ use crate::system::{ImageError, Images, Lattice};
 use imdp::model::{MemoryError, require_memory};
 use imdp::numeric::Rational;
 use imdp::property::{PathFormula, Property, Resolution, StateFormula};
-use std::time::{Duration, Instant};
 use reach::Reach;
 use sampled::Proved;
+use std::time::{Duration, Instant};
 use tables::Tables;
 
 /// What is stored of a cell and an input while blocks of them are put together: position and number, twice.
@@ -203,8 +203,11 @@ struct Landed {
 
 fn landed(problem: &InputProblem, resolution: &[u32], extent: &[(i64, i64)]) -> Result<Landed, InputsError> {
     let axes = problem.grid().axes();
-    let pitch: Vec<Rational> =
-        axes.iter().zip(resolution).map(|(axis, &r)| axis.width() / Rational::from_integer(r.into())).collect();
+    let pitch: Vec<Rational> = axes
+        .iter()
+        .zip(resolution)
+        .map(|(axis, &r)| axis.width() / Rational::from_integer(r.into()))
+        .collect();
     let sub_cells = |j: usize| i64::from(axes[j].cells()) * i64::from(resolution[j]);
     let axis = |j: usize, noise: Option<Taps>| {
         Axis::new(axes[j].cells() as usize, resolution[j] as usize, problem.periodic()[j], noise, extent[j])

@@ -30,11 +30,7 @@ impl Reach {
 
     /// The first and the last of these.
     pub(super) fn known(&self) -> (i64, i64) {
-        if self.leads_out {
-            (self.lowest, self.highest)
-        } else {
-            (self.lowest + 1, self.highest - 1)
-        }
+        if self.leads_out { (self.lowest, self.highest) } else { (self.lowest + 1, self.highest - 1) }
     }
 }
 

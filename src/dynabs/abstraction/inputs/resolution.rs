@@ -27,7 +27,9 @@ pub(super) fn choose(problem: &InputProblem) -> Vec<u32> {
         InputNoise::Components(components) => {
             components.iter().map(|noise| noise.as_ref().map(Distribution::spread)).collect()
         }
-        InputNoise::Gaussian(noise) => noise.factors.diagonal.iter().map(|d| Some(to_f64(d).sqrt())).collect(),
+        InputNoise::Gaussian(noise) => {
+            noise.factors.diagonal.iter().map(|d| Some(to_f64(d).sqrt())).collect()
+        }
         // Every box costs confidence: fine lattices do not pay.
         InputNoise::Sampled(_) => vec![None; axes.len()],
     };

@@ -224,4 +224,3 @@ fn band(samples: &NoiseSamples, pitch: &Rational, reach: &Reach, level: f64) -> 
     let (lower, upper) = edges.into_iter().unzip();
     Stencil { taps, elsewhere, band: Some(Band { lower, upper, is_complete: reach.leads_out }) }
 }
-
