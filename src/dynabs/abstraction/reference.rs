@@ -7,7 +7,7 @@
 
 use super::count_table::CountTable;
 use super::footprint::need_of_rows;
-use super::landings::{Landings, Placements, for_each_cell};
+use super::action_counts::{ActionCounts, TargetPlacements, for_each_cell};
 use super::states::{OUTSIDE, StateSpace};
 use super::targets::Targets;
 use crate::memory::TooLarge;
@@ -23,12 +23,12 @@ pub(super) fn build(
     problem: &Problem,
     beta_per_interval: f64,
     targets: &Targets,
-    placements: Placements<'_>,
+    placements: TargetPlacements<'_>,
     states: &StateSpace,
     progress: &dyn Progress,
 ) -> Result<Rows, TooLarge> {
     let grid: &Grid = problem.grid();
-    let landings = Landings::new(&problem.noise().samples, placements);
+    let landings = ActionCounts::new(&problem.noise().samples, placements);
     need_of_rows(problem, targets.len() as u64 * landings.row_length(grid) as u64).check()?;
     let intervals = ReferenceIntervals::new(problem.noise().samples.len() as u64, beta_per_interval);
     let inside: Vec<u32> = (0..targets.len())

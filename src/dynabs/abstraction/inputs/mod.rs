@@ -13,12 +13,12 @@ mod tables;
 
 use crate::Warning;
 use crate::guarantee::Evidence;
-use crate::landing::{Aim, Axis, Images as LandedImages, Landing, LandingError, Question, Stencil, Taps};
+use crate::landing::{Aim, Axis, Images, Landing, LandingError, Question, Stencil, Taps};
 use crate::noise::known::Distribution;
 use crate::partition::{CellId, CellKind, GridError};
 use crate::problem::{InputNoise, InputProblem};
 use crate::statistics::BudgetError;
-use crate::system::{ImageError, Images, Lattice};
+use crate::system::{ImageError, ImageMap, Lattice};
 use imdp::model::{MemoryError, require_memory};
 use imdp::numeric::Rational;
 use imdp::property::{PathFormula, Property, Resolution, StateFormula};
@@ -37,7 +37,7 @@ const BYTES_OF_CELL: u64 = 64;
 #[derive(Clone, Debug)]
 pub struct InputAbstraction {
     landing: Landing,
-    images: LandedImages,
+    images: Images,
     open: Vec<u32>,
     goal: Vec<bool>,
     aim: Aim,
@@ -106,14 +106,14 @@ impl InputAbstraction {
         if inputs.is_empty() {
             return Err(InputsError::NothingEnabled);
         }
-        let images = Images::new(problem.mode(), problem.feedback(), grid, lattice, inputs);
+        let images = ImageMap::new(problem.mode(), problem.feedback(), grid, lattice, inputs);
         let tables = Tables::new(grid, &images, inputs.len())?;
         let tabulated = start.elapsed();
 
         let kinds = problem.labels();
         let ordinary: Vec<u32> =
             kinds.iter().filter(|(_, kind)| *kind == CellKind::Ordinary).map(|(cell, _)| cell.0).collect();
-        let extent = LandedImages::extent(&tables, &ordinary, grid.dimension());
+        let extent = Images::extent(&tables, &ordinary, grid.dimension());
         let Landed { landing, relaxed, evidence, warnings } = landed(problem, &resolution, &extent)?;
         let pairs = ordinary.len() as u64 * inputs.len() as u64;
         let cells = u64::from(grid.num_cells());
@@ -121,7 +121,7 @@ impl InputAbstraction {
             "the images of all cells and inputs",
             BYTES_OF_PAIR * pairs + landing.bytes() + BYTES_OF_CELL * cells,
         )?;
-        let images = LandedImages::new(&tables, &ordinary, landing.axes())?;
+        let images = Images::new(&tables, &ordinary, landing.axes())?;
         let open = images.acting();
         let aim = problem.objective().aim();
         let phases = vec![("images", tabulated), ("landing", start.elapsed() - tabulated)];

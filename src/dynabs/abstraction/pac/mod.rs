@@ -72,8 +72,8 @@ mod prepared;
 
 use super::AbstractionError;
 use super::footprint::need_of_rows;
-use super::landing::{RegionCounts, Spread};
-use super::landings::{Landings, Placements, for_each_cell, is_inside};
+use super::cell_counts::{RegionCounts, CellBox};
+use super::action_counts::{ActionCounts, TargetPlacements, for_each_cell, is_inside};
 use super::outcomes::{Outcome, Outcomes};
 use super::states::{FAILED, REACHED, StateSpace};
 use super::targets::Targets;
@@ -97,7 +97,7 @@ pub(super) struct PacRows<'a> {
     targets: &'a Targets,
     states: &'a StateSpace,
     outcomes: &'a Outcomes,
-    landings: Landings<'a>,
+    landings: ActionCounts<'a>,
     /// Per action.
     regions: Vec<RegionCounts>,
     /// By squared distance from the target.
@@ -116,14 +116,14 @@ impl<'a> PacRows<'a> {
         problem: &'a Problem,
         prepared: Prepared,
         targets: &'a Targets,
-        placements: Placements<'a>,
+        placements: TargetPlacements<'a>,
         states: &'a StateSpace,
         outcomes: &'a Outcomes,
     ) -> Result<Self, AbstractionError> {
         let (grid, samples) = (problem.grid(), &problem.noise().samples);
         let levels = &prepared.levels;
         let inside_only = levels.lower_bounds() == LowerBounds::InsideWindows;
-        let landings = Landings::in_windows(samples, placements, prepared.windows.clone(), inside_only);
+        let landings = ActionCounts::in_windows(samples, placements, prepared.windows.clone(), inside_only);
         let entries = targets.len() as u64 * landings.row_length(grid) as u64;
         need_of_rows(problem, entries).check()?;
 
@@ -246,7 +246,7 @@ impl<'a> PacRows<'a> {
     }
 
     /// Whether nothing in the window at `origin` is lost.
-    fn is_clean(&self, window: &Spread, origin: &[i32]) -> bool {
+    fn is_clean(&self, window: &CellBox, origin: &[i32]) -> bool {
         let grid = self.problem.grid();
         let mut clean = is_inside(window, origin, grid);
         if clean {
