@@ -61,7 +61,12 @@ fn the_general_solver_gives_the_native_values() {
             let exported = abstraction.exported().solve(&SolverOptions::default()).values;
             let encoded = abstraction.exported().model(&abstraction.initial(problem.initial_cell())).unwrap();
             let cell = problem.initial_cell().unwrap().index();
-            assert!(own.lower[cell] > 0.0 || own.upper[cell] < 1.0, "{noise}: {} {}", own.lower[cell], own.upper[cell]);
+            assert!(
+                own.lower[cell] > 0.0 || own.upper[cell] < 1.0,
+                "{noise}: {} {}",
+                own.lower[cell],
+                own.upper[cell]
+            );
             assert!(exported.lower[cell] <= own.lower[cell] && exported.upper[cell] >= own.upper[cell]);
             for (resolution, value) in
                 [(Resolution::Pmaxmin, exported.lower[cell]), (Resolution::Pmaxmax, exported.upper[cell])]

@@ -41,5 +41,6 @@ mod solver;
 mod soundness;
 mod steering;
 mod systems;
+mod type_names;
 mod values;
 mod verify;

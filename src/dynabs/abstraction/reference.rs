@@ -5,9 +5,9 @@
 //! is no union over the intervals, cells without samples get upper bound 0, upper bounds are rounded
 //! down, and zero lower bounds are raised to 10⁻⁴.
 
+use super::action_counts::{ActionCounts, TargetPlacements, for_each_cell};
 use super::count_table::CountTable;
 use super::footprint::need_of_rows;
-use super::action_counts::{ActionCounts, TargetPlacements, for_each_cell};
 use super::states::{OUTSIDE, StateSpace};
 use super::targets::Targets;
 use crate::memory::TooLarge;

@@ -16,6 +16,8 @@ struct Game {
     open: Vec<u32>,
     /// By cell: the image under the only input.
     boxes: Vec<Vec<(i64, i64)>>,
+    /// By coordinate: all of them.
+    ranges: Vec<Vec<(i64, i64)>>,
 }
 
 impl ImageSource for Game {
@@ -23,8 +25,14 @@ impl ImageSource for Game {
         1
     }
 
-    fn image(&self, cell: u32, _: u32, out: &mut SubCells) -> bool {
-        out.copy_from_slice(&self.boxes[cell as usize]);
+    fn ranges(&self, coordinate: usize) -> &[(i64, i64)] {
+        &self.ranges[coordinate]
+    }
+
+    fn image(&self, cell: u32, _: u32, out: &mut [u32]) -> bool {
+        for (j, range) in self.boxes[cell as usize].iter().enumerate() {
+            out[j] = self.ranges[j].iter().position(|of| of == range).unwrap() as u32;
+        }
         true
     }
 }
@@ -60,9 +68,11 @@ fn game(seed: u64) -> Game {
     let kinds: Vec<u32> = (0..cells).map(|_| rng.random_range(0..5)).collect();
     let noise =
         (0..1 + seed % 3 / 2).map(|i| stencil(&mut rng, dimension, (seed + i).is_multiple_of(4))).collect();
-    let boxes =
+    let boxes: Vec<Vec<(i64, i64)>> =
         (0..cells).map(|_| axes.iter().map(|axis| boxes_of(&mut rng, axis.sub_cells())).collect()).collect();
+    let range = |j: usize| boxes.iter().map(|image| image[j]).collect();
     Game {
+        ranges: (0..dimension).map(range).collect(),
         noise,
         goal: kinds.iter().map(|&kind| kind == 0).collect(),
         open: (0..cells as u32).filter(|&cell| kinds[cell as usize] > 1).collect(),
@@ -116,9 +126,16 @@ fn expectation(game: &Game, noise: &[Stencil], values: &[Rational], place: &[i64
 fn noise_in_boxes_has_its_value() {
     for seed in 0..24 {
         let game = game(seed);
-        let images: Vec<(i64, i64)> = Images::extent(&game, &game.open, game.axes.len());
-        let landing = Landing::with_noise_in_boxes(game.axes.clone(), &images, &game.noise);
-        let images = Images::new(&game, &game.open, landing.axes()).unwrap();
+        let hull = |j: usize| {
+            let ranges = || game.ranges[j].iter();
+            (ranges().map(|r| r.0).min().unwrap(), ranges().map(|r| r.1).max().unwrap())
+        };
+        let extent: Vec<(i64, i64)> = (0..game.axes.len()).map(hull).collect();
+        let landing = Landing::with_noise_in_boxes(game.axes.clone(), &extent, &game.noise);
+        let occurs = occurring(&game, &game.open, game.axes.len());
+        let pairs = game.open.len() as u64;
+        let layout = Layout::new(&game, &occurs, landing.axes(), pairs).unwrap();
+        let images = Images::new(&game, &game.open, layout);
         let Game { open, goal, .. } = &game;
         let question =
             Question { landing: &landing, images: &images, open, goal, aim: Aim::Reach, steps: Some(2) };

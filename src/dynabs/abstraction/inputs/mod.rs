@@ -13,7 +13,7 @@ mod tables;
 
 use crate::Warning;
 use crate::guarantee::Evidence;
-use crate::landing::{Aim, Axis, Images, Landing, LandingError, Question, Stencil, Taps};
+use crate::landing::{Aim, Axis, Images, Landing, LandingError, Layout, Question, Stencil, Taps, occurring};
 use crate::noise::known::Distribution;
 use crate::partition::{CellId, CellKind, GridError};
 use crate::problem::{InputNoise, InputProblem};
@@ -26,9 +26,6 @@ use reach::Reach;
 use sampled::Proved;
 use std::time::{Duration, Instant};
 use tables::Tables;
-
-/// What is stored of a cell and an input while blocks of them are put together: position and number, twice.
-const BYTES_OF_PAIR: u64 = 12;
 
 /// What is stored of a cell: values on both sides, the best of a step, inputs chosen.
 const BYTES_OF_CELL: u64 = 64;
@@ -113,15 +110,17 @@ impl InputAbstraction {
         let kinds = problem.labels();
         let ordinary: Vec<u32> =
             kinds.iter().filter(|(_, kind)| *kind == CellKind::Ordinary).map(|(cell, _)| cell.0).collect();
-        let extent = Images::extent(&tables, &ordinary, grid.dimension());
+        let occurs = occurring(&tables, &ordinary, grid.dimension());
+        let extent: Vec<_> = (0..grid.dimension()).map(|j| tables.extent(j, &occurs[j])).collect();
         let Landed { landing, relaxed, evidence, warnings } = landed(problem, &resolution, &extent)?;
         let pairs = ordinary.len() as u64 * inputs.len() as u64;
-        let cells = u64::from(grid.num_cells());
+        let layout = Layout::new(&tables, &occurs, landing.axes(), pairs)?;
         require_memory(
             "the images of all cells and inputs",
-            BYTES_OF_PAIR * pairs + landing.bytes() + BYTES_OF_CELL * cells,
+            Images::bytes(&layout, ordinary.len(), inputs.len())
+                + BYTES_OF_CELL * u64::from(grid.num_cells()),
         )?;
-        let images = Images::new(&tables, &ordinary, landing.axes())?;
+        let images = Images::new(&tables, &ordinary, layout);
         let open = images.acting();
         let aim = problem.objective().aim();
         let phases = vec![("images", tabulated), ("landing", start.elapsed() - tabulated)];

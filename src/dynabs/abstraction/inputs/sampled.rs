@@ -21,7 +21,7 @@
 use super::InputsError;
 use super::reach::Reach;
 use crate::Warning;
-use crate::abstraction::landing::Landing;
+use crate::abstraction::cell_counts::CellCounts;
 use crate::abstraction::pac::{offset_weight, total_offset_weight};
 use crate::abstraction::placement::Placement;
 use crate::abstraction::windows::{Stack, Windows};
@@ -162,7 +162,7 @@ fn boxes(
     let Some(listed) = window.cells(&placement).into_iter().next() else {
         return Err(InputsError::TooFewSamples { samples: number, unseen: 1.0 });
     };
-    let landing = Landing::new(samples, &placement, Some(&listed), None);
+    let counts = CellCounts::new(samples, &placement, Some(&listed), None);
     let mut taps = vec![];
     listed.for_each(|place| {
         let is_known = |(reach, &k): (&Reach, &i32)| reach.is_known(i64::from(k));
@@ -171,7 +171,7 @@ fn boxes(
             unseen = 1.0;
             return;
         }
-        let count = landing.counts()[landing.table().position(place)];
+        let count = counts.counts()[counts.table().position(place)];
         let square = place.iter().map(|&k| i64::from(k).pow(2) as u64).sum();
         let level = cells.level(offset_weight(n, square));
         let lower = lower_bound(count.certain[0].into(), number, level);

@@ -1,7 +1,7 @@
 //! Where the noise of each action lands, with the intervals of the cells there.
 
-use super::super::cell_counts::{Count, CellCounts, CellBox};
 use super::super::action_counts::ActionCounts;
+use super::super::cell_counts::{CellBox, CellCounts, Count};
 use super::super::targets::Targets;
 use super::PacRows;
 use super::bounds::{BoundTable, Interval};

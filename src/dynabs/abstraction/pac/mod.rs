@@ -71,9 +71,9 @@ mod levels;
 mod prepared;
 
 use super::AbstractionError;
-use super::footprint::need_of_rows;
-use super::cell_counts::{RegionCounts, CellBox};
 use super::action_counts::{ActionCounts, TargetPlacements, for_each_cell, is_inside};
+use super::cell_counts::{CellBox, RegionCounts};
+use super::footprint::need_of_rows;
 use super::outcomes::{Outcome, Outcomes};
 use super::states::{FAILED, REACHED, StateSpace};
 use super::targets::Targets;
