@@ -14,6 +14,7 @@
 //!
 //! All numbers are rounded to the side that they bound: sums of products of numbers in `[0, 1]` err by a known factor.
 
+mod arrivals;
 mod axis;
 mod gather;
 mod images;
@@ -42,7 +43,7 @@ pub use images::{ImageSource, Images, LandingError, occurring};
 pub use layout::Layout;
 pub use model::LandingModel;
 pub use side::{Lower, Side, Slack, Upper};
-pub use solve::{Aim, LandingSolution, Question};
+pub use solve::{LandingSolution, Question};
 pub use stencil::{Band, Stencil, Tap};
 pub use step::{Best, Landing};
 pub use taps::Taps;

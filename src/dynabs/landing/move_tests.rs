@@ -1,6 +1,8 @@
 //! Noise in boxes against its definition in exact arithmetic, and against the general solver.
 
 use super::*;
+use crate::partition::CellKind;
+use crate::task::{Aim, CellTask};
 use imdp::numeric::{Rational, from_dyadic, to_f64};
 use imdp::property::{PathFormula, Property, Resolution, StateFormula};
 use imdp::solver::{Answer, SolverOptions};
@@ -137,8 +139,13 @@ fn noise_in_boxes_has_its_value() {
         let layout = Layout::new(&game, &occurs, landing.axes(), pairs).unwrap();
         let images = Images::new(&game, &game.open, layout);
         let Game { open, goal, .. } = &game;
-        let question =
-            Question { landing: &landing, images: &images, open, goal, aim: Aim::Reach, steps: Some(2) };
+        let kind = |cell: usize| match (goal[cell], open.contains(&(cell as u32))) {
+            (true, _) => CellKind::Goal,
+            (false, true) => CellKind::Ordinary,
+            (false, false) => CellKind::Unsafe,
+        };
+        let task = &CellTask::of_kinds(Aim::Reach, (0..goal.len()).map(kind));
+        let question = Question { landing: &landing, images: &images, open, task, steps: Some(2) };
         let solution = question.solve(&SolverOptions::default());
         for (lower, bounds) in [(true, &solution.values.lower), (false, &solution.values.upper)] {
             let start = |&goal: &bool| if goal { Rational::one() } else { Rational::zero() };
@@ -178,7 +185,8 @@ fn noise_in_boxes_has_its_value() {
                 },
             );
             let answer = Answer::new(&encoded.model, &property, &SolverOptions::default()).unwrap();
-            for (cell, &state) in encoded.of_cell.iter().enumerate() {
+            for (cell, states) in encoded.of_cell.iter().enumerate() {
+                let [state] = states[..] else { panic!("one start") };
                 let state = state.index();
                 let (lower, upper) = (answer.values.lower[state], answer.values.upper[state]);
                 let own = own[cell];

@@ -4,7 +4,8 @@ use super::fields::{
     FeedbackSpec, GaussianSpec, IndependentSpec, LqrSpec, ModelFile, NoiseSpec, ProbabilitiesSpec, SetSpec,
     TargetsSpec,
 };
-use super::parts::{self, given, input_set, partition, probabilities, task};
+use super::parts::{self, given, input_set, partition, probabilities};
+use super::task_parts::task;
 use crate::Diagnostic;
 use crate::problem::{
     Components, FeedbackChoice, GaussianNoise, InputChoice, InputNoiseParts, InputParts, InputSet, LqrWeights,
@@ -46,7 +47,7 @@ pub(super) fn input_parts(file: ModelFile, directory: &Path) -> Result<InputPart
         resolution: file.partition.resolution.clone(),
         partition: partition(file.partition),
         noise,
-        task: Some(task(file.task)?),
+        task: Some(task(file.task, file.regions, directory)?),
         initial_state: file.initial_state,
     })
 }

@@ -58,6 +58,11 @@ impl CellLabels {
         labels
     }
 
+    /// These kinds, one per cell.
+    pub fn from_kinds(kinds: Vec<CellKind>) -> Self {
+        Self { kinds }
+    }
+
     /// The kind of one cell.
     pub fn kind(&self, cell: CellId) -> CellKind {
         self.kinds[cell.index()]

@@ -10,6 +10,7 @@ use super::{FeedbackChoice, InputSet};
 use crate::geometry::Polytope;
 use crate::partition::{CellId, CellLabels, Grid, Region};
 use crate::system::{Feedback, Mode};
+use crate::task::CellTask;
 use crate::{Diagnostic, Warning};
 use imdp::numeric::Rational;
 use imdp::property::Probability;
@@ -63,6 +64,7 @@ pub struct InputProblem {
     feedback: Feedback,
     grid: Grid,
     labels: CellLabels,
+    cell_task: CellTask,
     resolution: Option<Vec<u32>>,
     noise: InputNoise,
     objective: Objective,
@@ -120,6 +122,7 @@ impl InputProblem {
             feedback,
             grid,
             labels: task.labels,
+            cell_task: task.cell_task,
             resolution,
             noise,
             objective: task.objective,
@@ -179,6 +182,11 @@ impl InputProblem {
     /// The noise of one step.
     pub fn noise(&self) -> &InputNoise {
         &self.noise
+    }
+
+    /// What the memory of the task becomes in each cell.
+    pub fn cell_task(&self) -> &CellTask {
+        &self.cell_task
     }
 
     /// What is wanted.

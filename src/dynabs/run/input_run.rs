@@ -10,12 +10,13 @@ use crate::abstraction::inputs::InputAbstraction;
 use crate::guarantee::{Event, Guarantee};
 use crate::landing::{LandingModel, LandingSolution};
 use crate::model_file::{Document, StatedProblem};
-use crate::problem::{InputProblem, SampledNoise};
+use crate::problem::{InputProblem, Objective, SampledNoise};
 use imdp::formats::umb::Compression;
 use imdp::formats::{Format, ModelWriter, native, sha256_hex};
 use imdp::progress::Progress;
 use imdp::property::{Probability, Resolution};
 use imdp::solver::SolverOptions;
+use serde_json::Value;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -144,7 +145,11 @@ pub fn write_input_run(
         manifest.transitions = size.transitions;
         manifest.rows = size.rows;
         manifest.row_entries = size.entries;
-        manifest.initial_model_state = problem.initial_cell().map(|cell| of_cell[cell.index()]);
+        manifest.initial_model_state =
+            problem.initial_cell().and_then(|cell| match of_cell[cell.index()][..] {
+                [state] => Some(state),
+                _ => None,
+            });
         for format in Format::ALL.into_iter().filter(|format| options.formats.contains(format)) {
             if format == Format::Native {
                 staging.write(super::NATIVE_MODEL, |out| native::write(&model, out))?;
@@ -164,11 +169,22 @@ pub fn write_input_run(
     }
     let samples = problem.noise().samples().map(|samples| &samples.noise);
     let is_file = samples.and_then(SampledNoise::file).is_some();
-    staging.write(PROBLEM, |out| out.write_all(self_contained(document, is_file).as_bytes()))?;
+    let value = self_contained(with_automaton(document.value.clone(), problem.objective()), is_file);
+    staging.write(PROBLEM, |out| out.write_all(value.as_bytes()))?;
     if let Some(samples) = samples {
         staging.write(NOISE, |out| write_samples(samples, out))?;
     }
     manifest.outputs = staging.files().to_vec();
     staging.commit(&manifest)?;
     Ok(manifest)
+}
+
+/// A model file that has the text of its automaton in itself.
+pub(super) fn with_automaton(mut value: Value, objective: &Objective) -> Value {
+    if let Objective::Automaton(task) = objective
+        && let (Some(text), Some(field)) = (task.source(), value.pointer_mut("/task/automaton"))
+    {
+        *field = serde_json::json!({"hoa": text});
+    }
+    value
 }

@@ -14,6 +14,7 @@ use imdp::formats::{Encoding, Format, ModelWriter, native};
 use imdp::progress::Progress;
 use imdp::solution_file;
 use imdp::solver::Solution;
+use serde_json::Value;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -83,7 +84,8 @@ pub fn write_run(
     }
     staging.write("model.props", |out| writeln!(out, "{}", abstraction.property))?;
     let is_file = problem.noise().file().is_some();
-    staging.write(PROBLEM, |out| out.write_all(self_contained(document, is_file).as_bytes()))?;
+    staging
+        .write(PROBLEM, |out| out.write_all(self_contained(document.value.clone(), is_file).as_bytes()))?;
     staging.write(NOISE, |out| write_samples(problem.noise(), out))?;
     manifest.outputs = staging.files().to_vec();
     staging.commit(&manifest)?;
@@ -99,8 +101,7 @@ pub(super) fn write_samples(noise: &SampledNoise, out: &mut dyn Write) -> io::Re
 }
 
 /// The model file after `--set`, referring to the samples beside it if they come from a file.
-pub(super) fn self_contained(document: &Document, is_file: bool) -> String {
-    let mut value = document.value.clone();
+pub(super) fn self_contained(mut value: Value, is_file: bool) -> String {
     if let (true, Some(file)) = (is_file, value.pointer_mut("/noise/samples/file")) {
         *file = NOISE.into();
     }
