@@ -106,10 +106,9 @@ mod tests {
                     else {
                         panic!("{zeta} is in no tap");
                     };
-                    for i in j..2 {
+                    for (i, delta) in delta.iter().enumerate().skip(j) {
                         let slope = to_f64(noise.factors.lower.get(i, j));
-                        let to =
-                            (rng.random::<f64>() + slope * zeta / delta[i]).floor() as i64 - tap.first[i];
+                        let to = (rng.random::<f64>() + slope * zeta / delta).floor() as i64 - tap.first[i];
                         assert!((0..i64::from(tap.size[i])).contains(&to), "{i} {j}: {to} {tap:?}");
                         outside_smaller += i32::from(to == i64::from(tap.size[i]) - 1 && slope != 0.0);
                     }
