@@ -170,7 +170,8 @@ fn small_model() -> IntervalMdp {
 }
 
 fn guarantee() -> Guarantee {
-    let samples = SampleEvidence { number: 100, beta: 0.01, sweep: 1, budget: vec![], unseen_mass: 0.1 };
+    let (budget, components) = (vec![], None);
+    let samples = SampleEvidence { number: 100, beta: 0.01, sweep: 1, budget, unseen_mass: 0.1, components };
     Guarantee {
         event: Event {
             task: None,

@@ -18,6 +18,7 @@ mod faults;
 mod formats;
 mod guarantee;
 mod import;
+mod input_noise;
 mod inputs;
 mod intervals;
 mod memory;

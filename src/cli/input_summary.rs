@@ -2,11 +2,13 @@
 
 use super::thousands;
 use dynabs::abstraction::inputs::InputAbstraction;
+use dynabs::guarantee::{Event, Evidence, Guarantee, SampleEvidence};
 use dynabs::landing::LandingSolution;
-use dynabs::problem::InputProblem;
+use dynabs::problem::{Components, InputNoise, InputProblem};
+use dynabs::statistics::Allocation;
 use imdp::numeric::shortest_decimal;
 use imdp::property::Verdict;
-use imdp::solver::Status;
+use imdp::solver::{SolverOptions, Status};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::process::ExitCode;
@@ -19,6 +21,9 @@ pub(super) struct InputResult {
     pub(super) lower: f64,
     /// The greatest upper bound of all initial cells.
     pub(super) upper: f64,
+    /// The bounds of the model that files have, if that is looser.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) exported: Option<[f64; 2]>,
     /// The greatest lower bound of all cells that are neither goal nor lost.
     pub(super) best: f64,
     /// The mean lower bound of these cells.
@@ -60,6 +65,7 @@ impl InputResult {
         Self {
             lower,
             upper,
+            exported: None,
             best: open.iter().map(|cell| at(&solution.values.lower, cell)).fold(0.0, f64::max),
             mean: open.iter().map(|cell| at(&solution.values.lower, cell)).sum::<f64>()
                 / open.len().max(1) as f64,
@@ -81,6 +87,23 @@ impl InputResult {
         }
     }
 
+    /// Adds the bounds of the model that files have, if that is looser.
+    pub(super) fn with_exported(
+        self,
+        problem: &InputProblem,
+        abstraction: &InputAbstraction,
+        options: &SolverOptions<'_>,
+    ) -> Self {
+        if !abstraction.is_relaxed() {
+            return self;
+        }
+        let values = abstraction.exported().solve(options).values;
+        let initial = abstraction.initial(problem.initial_cell());
+        let lower = initial.iter().map(|&cell| values.lower[cell as usize]).fold(1.0, f64::min);
+        let upper = initial.iter().map(|&cell| values.upper[cell as usize]).fold(0.0, f64::max);
+        Self { exported: Some([lower, upper]), ..self }
+    }
+
     /// 1 if the threshold is missed, 3 if that is undecided, else 0.
     pub(super) fn exit_code(&self) -> ExitCode {
         match (self.satisfied, self.ended) {
@@ -93,8 +116,13 @@ impl InputResult {
     /// Two lines for people.
     pub(super) fn text(&self, initial: &str) -> String {
         let verdict = self.satisfied.map_or(String::new(), |satisfied| format!("{satisfied}   "));
+        let exported = self.exported.map_or(String::new(), |[lower, upper]| {
+            format!(
+                "  the model in files is looser, for a band is no interval model: its value is in [{lower:.6}, {upper:.6}]\n"
+            )
+        });
         format!(
-            "  {verdict}value in [{:.6}, {:.6}] {initial}; best {:.6}, mean {:.6} over cells   {}, {} steps, {:.1?}\n",
+            "  {verdict}value in [{:.6}, {:.6}] {initial}; best {:.6}, mean {:.6} over cells   {}, {} steps, {:.1?}\n{exported}",
             self.lower,
             self.upper,
             self.best,
@@ -145,12 +173,41 @@ pub(super) fn summary(problem: &InputProblem, abstraction: &InputAbstraction) ->
             by_axis(&|j| axes[j].resolution.to_string())
         ),
     );
-    let noise = |j: usize| {
-        axes[j].noise.as_ref().map_or("none".to_owned(), |taps| format!("{} intervals", taps.lower.len()))
-    };
-    line("noise", format!("known: {}", (0..axes.len()).map(noise).collect::<Vec<_>>().join(", ")));
-    let lost =
-        axes.iter().filter_map(|axis| axis.noise.as_ref()).map(|taps| taps.slack()).fold(0.0, f64::max);
-    line("unlisted", format!("mass at most {} in a component", shortest_decimal(lost)));
+    match &abstraction.evidence {
+        Evidence::Samples(samples) => {
+            line("noise", format!("{}, from {} samples", kind(samples), thousands(samples.number)));
+            let confidence =
+                Guarantee { event: Event::of_inputs(problem), evidence: abstraction.evidence.clone() };
+            let confidence = confidence.confidence().map(shortest_decimal).unwrap_or_default();
+            line("bounds", format!("hold together with confidence {confidence}"));
+            let spent = |a: &Allocation| format!("{} {:.2e} over {} events", a.family, a.beta, a.events);
+            line("budget", samples.budget.iter().map(spent).collect::<Vec<_>>().join(", "));
+            line("unseen mass", format!("at most {:.6}", samples.unseen_mass));
+        }
+        Evidence::Known { unlisted } => {
+            let noise = |j: usize| {
+                let taps = axes[j].noise.as_ref();
+                taps.map_or("none".to_owned(), |taps| format!("{} intervals", taps.lower.len()))
+            };
+            let known = match problem.noise() {
+                InputNoise::Gaussian(_) => "normal, all components together".to_owned(),
+                _ => (0..axes.len()).map(noise).collect::<Vec<_>>().join(", "),
+            };
+            line("noise", format!("known: {known}"));
+            line("unlisted", format!("mass at most {} in a component", shortest_decimal(*unlisted)));
+        }
+        Evidence::Published { .. } => {}
+    }
     text
+}
+
+/// What samples bound.
+fn kind(samples: &SampleEvidence) -> &'static str {
+    match samples.components {
+        Some(Components::Intervals) => "components ASSUMED to be independent, by intervals",
+        Some(Components::Bands) => {
+            "components ASSUMED to be independent, by bands for their distribution functions"
+        }
+        Some(Components::Joint) | None => "all components together",
+    }
 }

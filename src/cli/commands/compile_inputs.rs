@@ -60,9 +60,11 @@ pub(super) fn compile_inputs(
             ..SolverOptions::default()
         };
         let solution = abstraction.question().solve(&options);
+        let result = InputResult::new(problem, &abstraction, &solution, solving.elapsed());
+        let result = result.with_exported(problem, &abstraction, &options);
         bars.finish();
         phases.push(("solving", solving.elapsed()));
-        Some(InputResult::new(problem, &abstraction, &solution, solving.elapsed()))
+        Some(result)
     } else {
         None
     };

@@ -220,6 +220,7 @@ fn solve_inputs(arguments: &SolveArguments, bars: &Arc<Bars>) -> Result<ExitCode
     };
     let SolvedInputs { run, solution } = SolvedInputs::open(&arguments.path, &options, bars)?;
     let result = InputResult::new(&run.problem, &run.abstraction, &solution, start.elapsed());
+    let result = result.with_exported(&run.problem, &run.abstraction, &options);
     let mut files = Outputs::default();
     if let Some(path) = &arguments.values {
         let written = files.write(path, |out| write_cell_values(&solution.values.lower, out));

@@ -4,7 +4,7 @@ use super::cell_box::CellBox;
 use super::targets::Alignment;
 use crate::noise::NoiseSample;
 use crate::partition::Grid;
-use imdp::numeric::{UNIT_ROUNDOFF, to_f64};
+use imdp::numeric::{Rational, UNIT_ROUNDOFF, to_f64};
 
 /// The map from noise to cell coordinates for one target, or for all that sit alike in their cells.
 #[derive(Clone, Debug)]
@@ -62,6 +62,19 @@ impl Placement {
             }
         };
         Self { axes: (0..grid.dimension()).map(axis).collect() }
+    }
+
+    /// The boxes of a lattice with corner 0 and these pitches that noise is in; those at the ends of `ranges` stand for
+    /// everything beyond.
+    pub fn of_noise(pitch: &[Rational], ranges: &[(i64, i64)]) -> Self {
+        let axis = |(pitch, range): (&Rational, &(i64, i64))| AxisPlacement {
+            width: to_f64(pitch),
+            shift: 0.0,
+            lowest: range.0 as i32,
+            highest: range.1 as i32,
+            tolerance: Some(0.0),
+        };
+        Self { axes: pitch.iter().zip(ranges).map(axis).collect() }
     }
 
     /// The cells in which noise `δ` may put the state.

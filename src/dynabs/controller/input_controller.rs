@@ -4,7 +4,7 @@ use super::memory::MemoryUpdate;
 use super::schedule::{Entry, Schedule};
 use super::{Decision, RunMemory};
 use crate::abstraction::inputs::InputAbstraction;
-use crate::guarantee::{Bound, Event, Evidence, Guarantee};
+use crate::guarantee::{Bound, Event, Guarantee};
 use crate::landing::LandingSolution;
 use crate::partition::{CellId, CellKind, CellLookup};
 use crate::problem::InputProblem;
@@ -45,10 +45,8 @@ impl InputController {
         };
         let lower = &solution.values.lower;
         let initial = abstraction.initial(problem.initial_cell());
-        let guarantee = Guarantee {
-            event: Event::of_inputs(problem),
-            evidence: Evidence::Known { unlisted: abstraction.unlisted() },
-        };
+        let guarantee =
+            Guarantee { event: Event::of_inputs(problem), evidence: abstraction.evidence.clone() };
         Self {
             lookup: CellLookup::new(grid),
             periods: grid.axes().iter().zip(problem.periodic()).map(period).collect(),

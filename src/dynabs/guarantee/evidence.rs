@@ -1,5 +1,6 @@
 //! What the probabilities of a model rest on.
 
+use crate::problem::Components;
 use crate::statistics::Allocation;
 use serde::{Deserialize, Serialize};
 
@@ -34,4 +35,14 @@ pub struct SampleEvidence {
     pub budget: Vec<Allocation>,
     /// The bound on the probability outside the window of cells that a row lists.
     pub unseen_mass: f64,
+    /// For actions that are inputs: what is assumed of the components of the noise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub components: Option<Components>,
+}
+
+impl SampleEvidence {
+    /// Whether the components of the noise are assumed to be independent of each other.
+    pub fn are_independent(&self) -> bool {
+        matches!(self.components, Some(Components::Intervals | Components::Bands))
+    }
 }

@@ -1,6 +1,6 @@
 //! A guarantee in words: sentences and lists of plain ASCII.
 
-use super::{Bound, Evidence, Guarantee, Safety, lower_bound_text};
+use super::{Bound, Evidence, Guarantee, Safety, SampleEvidence, lower_bound_text};
 use crate::task::Aim;
 use imdp::numeric::shortest_decimal;
 
@@ -25,10 +25,31 @@ const ASSUMES: &[&str] = &[
     "a seed that samples are drawn with was not chosen by its result",
 ];
 
+/// The same where components are assumed to be independent.
+const ASSUMES_INDEPENDENT: &[&str] = &[
+    "the components of the noise are independent of each other",
+    ASSUMES[0],
+    ASSUMES[1],
+    ASSUMES[2],
+    "parameters stay in their intervals",
+];
+
+/// The same for actions that are inputs, without that.
+const ASSUMES_JOINT: &[&str] = &[ASSUMES[0], ASSUMES[1], ASSUMES[2], "parameters stay in their intervals"];
+
+/// What the samples must not have a say in where actions are inputs: bounds speak of noise and lattice alone.
+const FIXED_BEFOREHAND_INPUTS: &[&str] = &[
+    "the pitch of the lattice (the widths of cells and /partition/resolution)",
+    "how far images are from the partition",
+    "discard",
+    "the confidence, its split over the families of events and the weights in them",
+    "sweep, the number of settings with different lattices that are compiled with these samples",
+];
+
 /// What the promise presupposes of noise that is known.
 const ASSUMES_KNOWN: &[&str] = &[
     "the noise has the stated distribution at every step, whatever happened before",
-    "its components are independent of each other",
+    "components that are stated one by one are independent of each other",
     "parameters stay in their intervals",
 ];
 
@@ -57,13 +78,18 @@ impl Guarantee {
         let mut sentences = vec![match &self.evidence {
             Evidence::Samples(samples) => format!(
                 "{start} {what} with probability at least {bound}. This holds with confidence {}{} over the {} noise \
-                 samples, for noise that is independent of them and distributed like them.",
+                 samples, for noise that is independent of them and distributed like them{}.",
                 self.confidence().map(shortest_decimal).unwrap_or_default(),
                 match samples.sweep {
                     1 => String::new(),
                     settings => format!(", for all {settings} settings of the sweep together,"),
                 },
-                samples.number
+                samples.number,
+                if samples.are_independent() {
+                    ", with components that are independent of each other"
+                } else {
+                    ""
+                }
             ),
             Evidence::Known { .. } => format!(
                 "{start} {what} with probability at least {bound}. This holds for noise with the stated \
@@ -124,13 +150,13 @@ impl Guarantee {
     /// Which numbers about the model are claims about the system.
     pub fn covers(&self) -> &'static str {
         match self.evidence {
+            Evidence::Samples(SampleEvidence { components: Some(_), .. }) | Evidence::Known { .. } => {
+                "lower bounds (Pmaxmin) and upper bounds (Pmaxmax) of the task: what no controller with these inputs exceeds"
+            }
             Evidence::Samples(_) => {
                 "lower bounds (Pmaxmin, Pminmin) of formulas that are false from \"failed\" on, and upper bounds (Pminmax, \
                  Pmaxmax) of formulas that are true from \"failed\" on; in both cases only if \"reached\" decides the formula \
                  by its meaning: a run ends there, and what the model does afterwards, or its variables there, mean nothing"
-            }
-            Evidence::Known { .. } => {
-                "lower bounds (Pmaxmin) and upper bounds (Pmaxmax) of the task: what no controller with these inputs exceeds"
             }
             Evidence::Published { .. } => {
                 "nothing: these intervals repeat the published tool's and are no guarantee"
@@ -141,6 +167,7 @@ impl Guarantee {
     /// What must not have been chosen by looking at the samples.
     pub fn fixed_beforehand(&self) -> &'static [&'static str] {
         match self.evidence {
+            Evidence::Samples(SampleEvidence { components: Some(_), .. }) => FIXED_BEFOREHAND_INPUTS,
             Evidence::Samples(_) => FIXED_BEFOREHAND,
             Evidence::Known { .. } | Evidence::Published { .. } => &[],
         }
@@ -148,7 +175,9 @@ impl Guarantee {
 
     /// What the guarantee presupposes of noise and samples.
     pub fn assumes(&self) -> &'static [&'static str] {
-        match self.evidence {
+        match &self.evidence {
+            Evidence::Samples(samples) if samples.are_independent() => ASSUMES_INDEPENDENT,
+            Evidence::Samples(SampleEvidence { components: Some(_), .. }) => ASSUMES_JOINT,
             Evidence::Samples(_) => ASSUMES,
             Evidence::Known { .. } => ASSUMES_KNOWN,
             Evidence::Published { .. } => &[],

@@ -1,6 +1,7 @@
 //! The sub-cells and pairs of every stage as states of an interval MDP.
 
 use super::axis::Axis;
+use super::move_layers::MoveLayer;
 use super::step::Landing;
 use super::weights::Weights;
 use imdp::model::{Rows, StateId};
@@ -15,6 +16,8 @@ pub(super) struct Layers<'a> {
     starts: Vec<(usize, usize)>,
     /// By stage: the shape of the array before it.
     shapes: Vec<Vec<usize>>,
+    /// What the noise does before, in this order.
+    moves: Vec<MoveLayer<'a>>,
     /// The state after the last one.
     end: usize,
     outcome: Outcomes<'a>,
@@ -34,10 +37,10 @@ pub(super) struct Outcomes<'a> {
 impl<'a> Layers<'a> {
     /// The layers whose states are numbered from `first`.
     pub(super) fn new(landing: &'a Landing, first: usize, outcome: Outcomes<'a>) -> Self {
-        let mut shape: Vec<usize> = landing.axes().iter().map(|axis| axis.cells).collect();
+        let mut shape: Vec<usize> = landing.inner().iter().map(|axis| axis.cells).collect();
         let (mut starts, mut shapes, mut end) = (vec![], vec![], first);
         for j in landing.order() {
-            let axis = &landing.axes()[j];
+            let axis = &landing.inner()[j];
             shapes.push(shape.clone());
             let others: usize = shape.iter().product::<usize>() / shape[j];
             shape[j] = axis.len;
@@ -49,7 +52,13 @@ impl<'a> Layers<'a> {
                 starts.push((end, end));
             }
         }
-        Self { landing, starts, shapes, end, outcome }
+        let layer = |of| {
+            let layer = MoveLayer::new(of, end);
+            end = layer.end();
+            layer
+        };
+        let moves = landing.moves().iter().map(layer).collect();
+        Self { landing, starts, shapes, moves, end, outcome }
     }
 
     /// The number of all states up to the last of these.
@@ -59,14 +68,22 @@ impl<'a> Layers<'a> {
 
     /// The state of a sub-cell of the whole lattice.
     pub(super) fn of_sub_cell(&self, place: &[usize]) -> StateId {
-        self.before(self.starts.len(), place.to_vec())
+        self.after_moves(0, place)
+    }
+
+    /// The state of a place after the first `moves` moves.
+    fn after_moves(&self, moves: usize, place: &[usize]) -> StateId {
+        match self.moves.get(moves) {
+            Some(layer) => layer.of_place(place),
+            None => self.before(self.starts.len(), place.to_vec()),
+        }
     }
 
     /// The state before the first `stage` stages: places in coordinates without noise are cells at once.
     fn before(&self, mut stage: usize, mut place: Vec<usize>) -> StateId {
         while let Some(index) = stage.checked_sub(1) {
             let j = self.landing.order().nth(index).unwrap_or_default();
-            let axis = &self.landing.axes()[j];
+            let axis = &self.landing.inner()[j];
             if axis.noise.is_some() {
                 let mut shape = self.shapes[index].clone();
                 shape[j] = axis.len;
@@ -84,7 +101,7 @@ impl<'a> Layers<'a> {
     /// Adds the rows of all these states, in their order: each has one.
     pub(super) fn push_rows(&self, rows: &mut Rows) {
         for (stage, j) in self.landing.order().enumerate() {
-            let axis = &self.landing.axes()[j];
+            let axis = &self.landing.inner()[j];
             let Some(taps) = &axis.noise else { continue };
             let (weights, slack) = (Weights::of(axis, taps), taps.slack());
             let mut shape = self.shapes[stage].clone();
@@ -92,6 +109,9 @@ impl<'a> Layers<'a> {
             each(&shape, |place| self.push_noise(rows, stage, j, place, &weights, slack));
             shape[j] = passes(axis);
             each(&shape, |place| self.push_pair(rows, stage, j, place));
+        }
+        for (index, layer) in self.moves.iter().enumerate() {
+            layer.push_rows(rows, self.outcome.lost, |place| self.after_moves(index + 1, place));
         }
     }
 
@@ -104,7 +124,7 @@ impl<'a> Layers<'a> {
         weights: &[Weights],
         slack: f64,
     ) {
-        let axis = &self.landing.axes()[j];
+        let axis = &self.landing.inner()[j];
         let (r, n) = (axis.resolution as i64, axis.cells as i64);
         let sub_cell = axis.first + place[j] as i64;
         let (q, of_place) = (sub_cell.div_euclid(r), &weights[sub_cell.rem_euclid(r) as usize]);
@@ -146,7 +166,7 @@ impl<'a> Layers<'a> {
 
     /// Passes `0 … cells − 1` lead to that cell, the later ones to one of two neighbours: `cells + c + 1` to `c` or `c + 1`.
     fn push_pair(&self, rows: &mut Rows, stage: usize, j: usize, place: &[usize]) {
-        let axis = &self.landing.axes()[j];
+        let axis = &self.landing.inner()[j];
         let (n, pass) = (axis.cells as i64, place[j] as i64);
         let cells = if pass < n { vec![pass] } else { vec![pass - n - 1, pass - n] };
         let state = |cell: i64| {

@@ -23,10 +23,16 @@ mod invariant;
 mod kernel;
 mod layers;
 mod layout;
+mod masses;
 mod model;
+mod move_layers;
+#[cfg(test)]
+mod move_tests;
+mod moves;
 mod side;
 mod solve;
 mod stage;
+mod stencil;
 mod step;
 mod taps;
 #[cfg(test)]
@@ -37,7 +43,8 @@ pub use axis::Axis;
 pub use images::{ImageSource, Images, LandingError, occurring};
 pub use layout::Layout;
 pub use model::LandingModel;
-pub use side::{Lower, Side, Upper};
+pub use side::{Lower, Side, Slack, Upper};
 pub use solve::{LandingSolution, Question};
+pub use stencil::{Band, Stencil, Tap};
 pub use step::{Best, Landing};
 pub use taps::Taps;

@@ -184,7 +184,8 @@ impl Ranges {
 impl Landing {
     /// How many steps of the model are one of the system: to a range, to a sub-cell, and two for each noise.
     pub fn micro_steps(&self) -> u64 {
-        2 + 2 * self.axes().iter().filter(|axis| axis.noise.is_some()).count() as u64
+        let stages = self.axes().iter().filter(|axis| axis.noise.is_some()).count();
+        2 + 2 * (stages + self.moves().len()) as u64
     }
 
     /// The axes in the order of their stages.

@@ -3,8 +3,10 @@
 use super::arrays::Arrays;
 use super::axis::Axis;
 use super::images::Images;
+use super::moves::{Move, Span};
 use super::side::Side;
 use super::stage::Stage;
+use super::stencil::Stencil;
 use super::taps::Taps;
 use imdp::solver::NO_CHOICE;
 
@@ -14,6 +16,10 @@ pub struct Landing {
     axes: Vec<Axis>,
     /// In the order in which they are applied, with the axis that each is about.
     stages: Vec<(usize, Stage)>,
+    /// The axes of the array after all stages: those above, if there are no moves.
+    inner: Vec<Axis>,
+    /// What else the noise does, before what the stages do.
+    moves: Vec<Move>,
     arrays: Arrays,
 }
 
@@ -29,10 +35,28 @@ pub struct Best {
 impl Landing {
     /// A lattice with these axes, row-major.
     pub fn new(axes: Vec<Axis>) -> Self {
-        let mut stages: Vec<_> = axes.iter().map(Stage::new).enumerate().collect();
+        Self::between(axes.clone(), axes, vec![])
+    }
+
+    /// A lattice with these axes, none of which has noise of its own, and noise that moves what lands on it: one after
+    /// the other. Images occupy sub-cells from `images[j].0` to `images[j].1`.
+    pub fn with_noise_in_boxes(axes: Vec<Axis>, images: &[(i64, i64)], noise: &[Stencil]) -> Self {
+        let lengths: Vec<usize> = axes.iter().map(|axis| axis.cells * axis.resolution).collect();
+        let periodic: Vec<bool> = axes.iter().map(|axis| axis.periodic).collect();
+        let moves = Move::chain(noise, &lengths, &periodic, images);
+        let over = |spans: &[Span]| -> Vec<Axis> {
+            let axes = axes.iter().zip(spans);
+            axes.map(|(axis, span)| Axis { first: span.first, len: span.len, ..axis.clone() }).collect()
+        };
+        let (Some(first), Some(last)) = (moves.first(), moves.last()) else { return Self::new(axes) };
+        Self::between(over(&first.from), over(&last.to), moves)
+    }
+
+    fn between(axes: Vec<Axis>, inner: Vec<Axis>, moves: Vec<Move>) -> Self {
+        let mut stages: Vec<_> = inner.iter().map(Stage::new).enumerate().collect();
         // Those that make the array longer last: the others then have less to do.
         stages.sort_by(|(_, a), (_, b)| a.growth().total_cmp(&b.growth()));
-        Self { stages, axes, arrays: Arrays::default() }
+        Self { axes, stages, inner, moves, arrays: Arrays::default() }
     }
 
     /// The axes.
@@ -42,6 +66,16 @@ impl Landing {
 
     pub(super) fn stages(&self) -> &[(usize, Stage)] {
         &self.stages
+    }
+
+    /// The axes of the array after all stages.
+    pub(super) fn inner(&self) -> &[Axis] {
+        &self.inner
+    }
+
+    /// What the noise does before the stages, in this order.
+    pub(super) fn moves(&self) -> &[Move] {
+        &self.moves
     }
 
     /// The number of cells of the partition.
@@ -55,6 +89,9 @@ impl Landing {
         &self,
         noise: impl Iterator<Item = Option<Option<Taps>>>,
     ) -> Option<(Self, f64)> {
+        if !self.moves.is_empty() {
+            return None;
+        }
         let mut axes = self.axes.clone();
         let mut least = 1.0;
         for (axis, noise) in axes.iter_mut().zip(noise) {
@@ -72,12 +109,15 @@ impl Landing {
     pub fn values<S: Side>(&self, of_cells: &[f64]) -> Vec<f64> {
         let mut values = self.arrays.take(of_cells.len());
         values.iter_mut().zip(of_cells).for_each(|(v, &of_cell)| *v = S::above_underflow(of_cell));
-        let mut shape: Vec<usize> = self.axes.iter().map(|axis| axis.cells).collect();
+        let mut shape: Vec<usize> = self.inner.iter().map(|axis| axis.cells).collect();
         for (j, stage) in &self.stages {
             let inner = shape[j + 1..].iter().product();
             let landed = stage.apply::<S>(&values, inner, &self.arrays);
             self.arrays.keep(std::mem::replace(&mut values, landed));
             shape[*j] = stage.axis().len;
+        }
+        for noise in self.moves.iter().rev() {
+            values = noise.apply::<S>(&values);
         }
         values
     }

@@ -1,7 +1,6 @@
 //! The noise of one coordinate, cut at the pitch of the lattice.
 
-use super::side::LEAST_MASS;
-use imdp::numeric::one_minus_up;
+use super::side::{LEAST_MASS, Slack};
 
 /// Bounds on the masses of `[kδ, (k+1)δ)` for `k = first, first + 1, …`.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,9 +23,7 @@ impl Taps {
 
     /// What the lower bounds leave: at most this much mass is unaccounted for.
     pub fn slack(&self) -> f64 {
-        let listed =
-            self.lower.iter().fold(0.0, |sum: f64, p| if *p > 0.0 { (sum + p).next_down() } else { sum });
-        one_minus_up(listed.clamp(0.0, 1.0))
+        Slack::beside(&self.lower).most
     }
 
     /// Equal masses for all intervals that may have mass, unless there may be mass elsewhere.

@@ -71,14 +71,15 @@ pub(super) enum ActionsSpec {
     Inputs,
 }
 
-/// The noise: `samples`, or `gaussian` with `count` and `seed` for samples that are drawn, or known `components`.
+/// The noise: `samples`, or `gaussian` with `count` and `seed` for samples that are drawn, or known: `gaussian` alone or
+/// `components`.
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct NoiseSpec {
     /// A file of samples.
     #[serde(default)]
     pub(super) samples: Option<SamplesSpec>,
-    /// A normal distribution of the noise of one step.
+    /// A normal distribution of the noise of one step; known, or drawn from if there is a count.
     #[serde(default)]
     pub(super) gaussian: Option<GaussianSpec>,
     /// Known distributions of the components of the noise of one step, which are independent; null for none.
@@ -90,6 +91,21 @@ pub(super) struct NoiseSpec {
     /// The seed of the draws; 0 if absent.
     #[serde(default)]
     pub(super) seed: Option<u64>,
+    /// For actions "inputs" and samples: their components are assumed to be independent of each other, and samples bound
+    /// the probabilities of "intervals" or, by "bands", their distribution functions. Absent, nothing is assumed.
+    #[serde(default)]
+    pub(super) independent: Option<IndependentSpec>,
+}
+
+/// What samples bound of components that are independent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "Independent")]
+pub(super) enum IndependentSpec {
+    /// The probability of every interval of the lattice.
+    Intervals,
+    /// The distribution function, everywhere at once.
+    Bands,
 }
 
 /// A file of noise samples.

@@ -1,10 +1,15 @@
 //! From the fields of a model file to the parts of a problem whose actions are inputs.
 
-use super::fields::{FeedbackSpec, LqrSpec, ModelFile, NoiseSpec, SetSpec, TargetsSpec};
-use super::parts::{given, input_set, partition};
+use super::fields::{
+    FeedbackSpec, GaussianSpec, IndependentSpec, LqrSpec, ModelFile, NoiseSpec, ProbabilitiesSpec, SetSpec,
+    TargetsSpec,
+};
+use super::parts::{self, given, input_set, partition, probabilities};
 use super::task_parts::task;
 use crate::Diagnostic;
-use crate::problem::{FeedbackChoice, InputChoice, InputParts, InputSet, LqrWeights};
+use crate::problem::{
+    Components, FeedbackChoice, GaussianNoise, InputChoice, InputNoiseParts, InputParts, InputSet, LqrWeights,
+};
 use std::path::Path;
 
 /// The parts, not yet checked against each other.
@@ -31,12 +36,7 @@ pub(super) fn input_parts(file: ModelFile, directory: &Path) -> Result<InputPart
             format!("{n}, one per dimension of the state"),
         ));
     }
-    let NoiseSpec { components: Some(noise), samples: None, gaussian: None, count: None, seed: None } =
-        file.noise
-    else {
-        let (found, expected) = ("samples or a joint distribution", "known components");
-        return Err(Diagnostic::at("/noise", found, expected));
-    };
+    let noise = noise(file.noise, &file.probabilities, directory)?;
     Ok(InputParts {
         name: file.name,
         mode,
@@ -50,6 +50,50 @@ pub(super) fn input_parts(file: ModelFile, directory: &Path) -> Result<InputPart
         task: Some(task(file.task, file.regions, directory)?),
         initial_state: file.initial_state,
     })
+}
+
+/// Known noise, or samples and what is asked of them.
+fn noise(
+    spec: NoiseSpec,
+    asked: &ProbabilitiesSpec,
+    directory: &Path,
+) -> Result<InputNoiseParts, Diagnostic> {
+    let is_sampled = spec.samples.is_some() || spec.count.is_some();
+    if let (Some(_), false) = (spec.independent, is_sampled) {
+        let expected = "samples, or gaussian with a count of samples to draw";
+        return Err(Diagnostic::at("/noise/independent", "a field for samples", expected)
+            .remedy("Known components are independent as they are."));
+    }
+    let components = match spec.independent {
+        None => Components::Joint,
+        Some(IndependentSpec::Intervals) => Components::Intervals,
+        Some(IndependentSpec::Bands) => Components::Bands,
+    };
+    match spec {
+        NoiseSpec {
+            components: Some(components),
+            samples: None,
+            gaussian: None,
+            count: None,
+            seed: None,
+            ..
+        } => Ok(InputNoiseParts::Components(components)),
+        NoiseSpec {
+            gaussian: Some(gaussian),
+            components: None,
+            samples: None,
+            count: None,
+            seed: None,
+            ..
+        } => {
+            let GaussianSpec { mean, covariance } = gaussian;
+            Ok(InputNoiseParts::Gaussian(GaussianNoise { mean, covariance }))
+        }
+        spec => {
+            let source = parts::noise(NoiseSpec { independent: None, ..spec }, directory)?;
+            Ok(InputNoiseParts::Sampled { source, components, probabilities: probabilities(asked)? })
+        }
+    }
 }
 
 fn feedback(spec: Option<FeedbackSpec>) -> Result<FeedbackChoice, Diagnostic> {

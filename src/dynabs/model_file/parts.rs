@@ -58,7 +58,9 @@ impl Document {
 
 /// The kind of actions: as stated, or what the other fields ask for.
 fn actions(file: &ModelFile) -> ActionsSpec {
-    let steered = file.noise.components.is_none() && file.dynamics.beyond_matrices().is_none();
+    let is_known = file.noise.gaussian.is_some() && file.noise.count.is_none();
+    let steered = file.noise.components.is_none() && !is_known && file.noise.independent.is_none();
+    let steered = steered && file.dynamics.beyond_matrices().is_none();
     let default = if steered { ActionsSpec::Targets } else { ActionsSpec::Inputs };
     file.actions.unwrap_or(default)
 }
@@ -103,7 +105,7 @@ fn builder(file: ModelFile, directory: &Path) -> Result<ProblemBuilder, Diagnost
 
 /// The way out if steering to targets cannot do something.
 const INPUTS: &str =
-    "With \"actions\": \"inputs\" the controller chooses from inputs, for any dynamics and known noise.";
+    "With \"actions\": \"inputs\" the controller chooses from inputs, for any dynamics and any noise.";
 
 fn missing(name: &str) -> Diagnostic {
     Diagnostic::at("", format!("no field `{name}`"), format!("the field `{name}`"))
@@ -161,7 +163,7 @@ fn targets(spec: TargetsSpec) -> TargetChoice {
     }
 }
 
-fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {
+pub(super) fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {
     match spec {
         NoiseSpec {
             samples: Some(SamplesSpec { file, of }),
@@ -169,6 +171,7 @@ fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {
             components: None,
             count: None,
             seed: None,
+            independent: None,
         } => {
             let of = match of {
                 SampleKindSpec::Grouped => SampleKind::Grouped,
@@ -182,6 +185,7 @@ fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {
             components: None,
             count,
             seed,
+            independent: None,
         } => {
             let count = count
                 .ok_or_else(|| Diagnostic::at("/noise/count", "nothing", "the number of samples to draw"))?;
@@ -195,14 +199,15 @@ fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {
                 ("components", spec.components.is_some()),
                 ("count", spec.count.is_some()),
                 ("seed", spec.seed.is_some()),
+                ("independent", spec.independent.is_some()),
             ]);
             let found = if given.is_empty() { "nothing".to_owned() } else { given };
-            Err(Diagnostic::at("/noise", found, "either {samples} or {gaussian, count, seed}"))
+            Err(Diagnostic::at("/noise", found, "either {samples} or {gaussian, count, seed}").remedy(INPUTS))
         }
     }
 }
 
-fn probabilities(spec: &ProbabilitiesSpec) -> Result<Probabilities, Diagnostic> {
+pub(super) fn probabilities(spec: &ProbabilitiesSpec) -> Result<Probabilities, Diagnostic> {
     let foreign = |field: &str, mode: &str| {
         let (place, expected) =
             (format!("/probabilities/{field}"), format!("only fields of mode \"{mode}\""));

@@ -1,14 +1,13 @@
 //! A control problem whose actions are inputs.
 
 use super::builder::{InitialState, given, initial};
-use super::distribution::DistributionParts;
+use super::input_noise::{InputNoise, InputNoiseParts};
 use super::problem::Objective;
 use super::regions::Partition;
 use super::task::{CheckedTask, Task};
 use super::values::{count, vector};
 use super::{FeedbackChoice, InputSet};
 use crate::geometry::Polytope;
-use crate::noise::known::Distribution;
 use crate::partition::{CellId, CellLabels, Grid, Region};
 use crate::system::{Feedback, Mode};
 use crate::task::CellTask;
@@ -36,8 +35,8 @@ pub struct InputParts {
     pub partition: Partition,
     /// How many sub-cells a cell has in each coordinate; chosen if absent.
     pub resolution: Option<Vec<u32>>,
-    /// The noise of each coordinate; nothing where there is none.
-    pub noise: Vec<Option<DistributionParts>>,
+    /// The noise of one step.
+    pub noise: InputNoiseParts,
     /// What the controller is to achieve.
     pub task: Option<Task>,
     /// The state from which the guarantee is wanted; by default every ordinary cell is initial.
@@ -54,7 +53,7 @@ pub enum InputChoice {
     List(Vec<Vec<f64>>),
 }
 
-/// A validated control problem whose actions are inputs: any dynamics, known noise.
+/// A validated control problem whose actions are inputs: any dynamics, any noise.
 #[derive(Clone, Debug)]
 pub struct InputProblem {
     name: String,
@@ -67,7 +66,7 @@ pub struct InputProblem {
     labels: CellLabels,
     cell_task: CellTask,
     resolution: Option<Vec<u32>>,
-    noise: Vec<Option<Distribution>>,
+    noise: InputNoise,
     objective: Objective,
     unsafe_: Vec<Region>,
     horizon: Option<u64>,
@@ -105,17 +104,11 @@ impl InputProblem {
             .remedy("Use smaller cells, a smaller gain or a larger U."));
         }
         let resolution = parts.resolution.map(|r| checked_resolution(r, n)).transpose()?;
-        if parts.noise.len() != n {
-            let expected = format!("{n}, one per dimension of the state (null for none)");
-            return Err(Diagnostic::at("/noise/components", count(parts.noise.len(), "component"), expected));
-        }
-        let component = |(j, noise): (usize, &Option<DistributionParts>)| {
-            noise.as_ref().map(|noise| noise.distribution(&format!("/noise/components/{j}"))).transpose()
-        };
-        let noise = parts.noise.iter().enumerate().map(component).collect::<Result<Vec<_>, _>>()?;
+        let noise = parts.noise.noise(n)?;
         let task = CheckedTask::new(&given(parts.task, "task")?, &grid, 1)?;
         let initial = parts.initial_state.map(|state| initial(state, &grid)).transpose()?;
         let mut warnings = task.warnings;
+        warnings.extend(noise.samples().iter().flat_map(|samples| samples.noise.warnings.iter().cloned()));
         if inputs.len() < given_inputs {
             let unused = given_inputs - inputs.len();
             warnings.push(Warning::UnusedInputs { unused, inputs: given_inputs });
@@ -186,8 +179,8 @@ impl InputProblem {
         self.resolution.as_deref()
     }
 
-    /// The noise of each coordinate.
-    pub fn noise(&self) -> &[Option<Distribution>] {
+    /// The noise of one step.
+    pub fn noise(&self) -> &InputNoise {
         &self.noise
     }
 

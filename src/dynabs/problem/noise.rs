@@ -1,13 +1,13 @@
 //! Where the noise samples come from: memory, a file, a distribution.
 
 use super::values::{count, symmetric, vector};
-use crate::linear_algebra::Definiteness;
+use crate::linear_algebra::{Definiteness, ExactMatrix};
 use crate::memory::Need;
 use crate::noise::{CsvError, Gaussian, NoiseSamples, parse_csv};
 use crate::statistics::departures;
 use crate::system::LinearSystem;
 use crate::{Diagnostic, Warning};
-use imdp::numeric::to_f64;
+use imdp::numeric::{Rational, to_f64};
 use std::path::PathBuf;
 
 /// The most samples that quantiles are proven for.
@@ -174,6 +174,18 @@ impl GaussianNoise {
     /// # Errors
     /// A [`Diagnostic`] if shapes do not fit or the covariance is indefinite.
     pub fn distribution(&self, n: usize) -> Result<Gaussian, Diagnostic> {
+        let (mean, covariance) = self.exact(n)?;
+        let mean: Vec<f64> = mean.iter().map(to_f64).collect();
+        Gaussian::new(&mean, &covariance).ok_or_else(|| {
+            let place = "/noise/gaussian/covariance";
+            let found = "entries so far apart that its factor leaves the range of doubles";
+            Diagnostic::at(place, found, "entries of comparable sizes")
+                .remedy("Measure the state in other units.")
+        })
+    }
+
+    /// Mean and covariance of an `n`-dimensional noise, as written.
+    pub(super) fn exact(&self, n: usize) -> Result<(Vec<Rational>, ExactMatrix), Diagnostic> {
         let place = "/noise/gaussian/covariance";
         let covariance = symmetric(place, &self.covariance, n, "n×n for n states")?;
         if covariance.definiteness() == Definiteness::Indefinite {
@@ -183,13 +195,8 @@ impl GaussianNoise {
         }
         let zero = vec![0.0; n];
         let mean = self.mean.as_ref().unwrap_or(&zero);
-        let what = "one per dimension of the state";
-        let mean: Vec<f64> = vector("/noise/gaussian/mean", mean, n, what)?.iter().map(to_f64).collect();
-        Gaussian::new(&mean, &covariance).ok_or_else(|| {
-            let found = "entries so far apart that its factor leaves the range of doubles";
-            Diagnostic::at(place, found, "entries of comparable sizes")
-                .remedy("Measure the state in other units.")
-        })
+        let mean = vector("/noise/gaussian/mean", mean, n, "one per dimension of the state")?;
+        Ok((mean, covariance))
     }
 }
 

@@ -1,17 +1,17 @@
 //! Runs of problems whose actions are inputs: written, and opened again.
 
 use super::RunFiles;
-use super::appearance::{NATIVE_MODEL, PROBLEM};
+use super::appearance::{NATIVE_MODEL, NOISE, PROBLEM};
 use super::error::OpenError;
 use super::manifest::{GroupedHorizon, InputFile, Manifest};
 use super::open::problem_document;
 use super::staging::{RunDirectoryError, Staging};
-use super::write::WriteOptions;
+use super::write::{WriteOptions, self_contained, write_samples};
 use crate::abstraction::inputs::InputAbstraction;
-use crate::guarantee::{Event, Evidence, Guarantee};
+use crate::guarantee::{Event, Guarantee};
 use crate::landing::{LandingModel, LandingSolution};
 use crate::model_file::{Document, StatedProblem};
-use crate::problem::{InputProblem, Objective};
+use crate::problem::{InputProblem, Objective, SampledNoise};
 use imdp::formats::umb::Compression;
 use imdp::formats::{Format, ModelWriter, native, sha256_hex};
 use imdp::progress::Progress;
@@ -60,6 +60,10 @@ impl InputRun {
                 found: "a problem whose actions are targets".into(),
             });
         };
+        if let Some((_, text)) = problem.noise().samples().and_then(|samples| samples.noise.file()) {
+            // What was read, not what is there by now.
+            files.compare(NOISE, &sha256_hex(text.as_bytes()))?;
+        }
         let abstraction = InputAbstraction::new(&problem)
             .map_err(|error| OpenError::Inputs { path: shown(), error: Box::new(error) })?;
         Ok(Self { directory: directory.to_path_buf(), manifest, problem: *problem, abstraction })
@@ -79,12 +83,16 @@ impl Manifest {
         problem: &InputProblem,
         abstraction: &InputAbstraction,
     ) -> Self {
-        let guarantee = Guarantee {
-            event: Event::of_inputs(problem),
-            evidence: Evidence::Known { unlisted: abstraction.unlisted() },
-        };
-        let name = document.name.rsplit(['/', '\\']).next().unwrap_or(&document.name).to_owned();
+        let guarantee =
+            Guarantee { event: Event::of_inputs(problem), evidence: abstraction.evidence.clone() };
         let micro_steps = abstraction.micro_steps();
+        let samples = problem.noise().samples().map(|samples| &samples.noise);
+        let file = |name: &str, text: &str| {
+            let name = name.rsplit(['/', '\\']).next().unwrap_or(name).to_owned();
+            InputFile { name, sha256: sha256_hex(text.as_bytes()) }
+        };
+        let of_samples = samples.and_then(SampledNoise::file).map(|(name, text)| file(name, text));
+        let inputs = std::iter::once(file(&document.name, source)).chain(of_samples).collect();
         Self {
             name: problem.name().to_owned(),
             states: problem.grid().num_cells().into(),
@@ -99,8 +107,15 @@ impl Manifest {
             property: abstraction.property(Resolution::Pmaxmin).to_string(),
             threshold: problem.threshold().map(Probability::to_f64),
             initial_state: problem.initial_state().map(<[f64]>::to_vec),
-            warnings: problem.warnings().iter().map(ToString::to_string).collect(),
-            inputs: vec![InputFile { name, sha256: sha256_hex(source.as_bytes()) }],
+            samples: samples.map_or(0, |samples| samples.samples.len() as u64),
+            seed: samples.and_then(SampledNoise::seed),
+            warnings: problem
+                .warnings()
+                .iter()
+                .chain(&abstraction.warnings)
+                .map(ToString::to_string)
+                .collect(),
+            inputs,
             ..Self::empty()
         }
     }
@@ -124,7 +139,7 @@ pub fn write_input_run(
     let mut staging = Staging::begin(target, options.force)?;
     if !options.formats.is_empty() {
         let LandingModel { model, of_cell, .. } =
-            abstraction.question().model(&abstraction.initial(problem.initial_cell()))?;
+            abstraction.exported().model(&abstraction.initial(problem.initial_cell()))?;
         let size = model.size();
         manifest.states = size.states;
         manifest.choices = size.choices;
@@ -153,8 +168,13 @@ pub fn write_input_run(
                 .try_for_each(|resolution| writeln!(out, "{}", abstraction.property(resolution)))
         })?;
     }
-    let value = with_automaton(document.value.clone(), problem.objective());
-    staging.write(PROBLEM, |out| writeln!(out, "{value:#}"))?;
+    let samples = problem.noise().samples().map(|samples| &samples.noise);
+    let is_file = samples.and_then(SampledNoise::file).is_some();
+    let value = self_contained(with_automaton(document.value.clone(), problem.objective()), is_file);
+    staging.write(PROBLEM, |out| out.write_all(value.as_bytes()))?;
+    if let Some(samples) = samples {
+        staging.write(NOISE, |out| write_samples(samples, out))?;
+    }
     manifest.outputs = staging.files().to_vec();
     staging.commit(&manifest)?;
     Ok(manifest)

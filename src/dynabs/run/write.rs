@@ -7,14 +7,15 @@ use super::solution::is_final;
 use super::staging::{RunDirectoryError, Staging};
 use crate::abstraction::Abstraction;
 use crate::model_file::Document;
-use crate::problem::Problem;
+use crate::problem::{Problem, SampledNoise};
 use imdp::formats::row_states::RowStates;
 use imdp::formats::umb::Compression;
 use imdp::formats::{Encoding, Format, ModelWriter, native};
 use imdp::progress::Progress;
 use imdp::solution_file;
 use imdp::solver::Solution;
-use std::io::Write;
+use serde_json::Value;
+use std::io::{self, Write};
 use std::path::Path;
 
 /// What to write and what may be replaced.
@@ -79,22 +80,26 @@ pub fn write_run(
         staging.write(SOLUTION, |out| solution_file::write(&abstraction.property, &sha256, solution, out))?;
     }
     staging.write("model.props", |out| writeln!(out, "{}", abstraction.property))?;
-    staging.write(PROBLEM, |out| out.write_all(self_contained(document, problem).as_bytes()))?;
-    staging.write(NOISE, |out| match problem.noise().file() {
-        Some((_, text)) => out.write_all(text.as_bytes()),
-        None => out.write_all(problem.noise().samples.to_csv().as_bytes()),
-    })?;
+    let is_file = problem.noise().file().is_some();
+    staging
+        .write(PROBLEM, |out| out.write_all(self_contained(document.value.clone(), is_file).as_bytes()))?;
+    staging.write(NOISE, |out| write_samples(problem.noise(), out))?;
     manifest.outputs = staging.files().to_vec();
     staging.commit(&manifest)?;
     Ok(manifest)
 }
 
-/// The model file after `--set`, referring to the samples beside it.
-fn self_contained(document: &Document, problem: &Problem) -> String {
-    let mut value = document.value.clone();
-    if problem.noise().file().is_some()
-        && let Some(file) = value.pointer_mut("/noise/samples/file")
-    {
+/// The samples as they were read, or drawn.
+pub(super) fn write_samples(noise: &SampledNoise, out: &mut dyn Write) -> io::Result<()> {
+    match noise.file() {
+        Some((_, text)) => out.write_all(text.as_bytes()),
+        None => out.write_all(noise.samples.to_csv().as_bytes()),
+    }
+}
+
+/// The model file after `--set`, referring to the samples beside it if they come from a file.
+pub(super) fn self_contained(mut value: Value, is_file: bool) -> String {
+    if let (true, Some(file)) = (is_file, value.pointer_mut("/noise/samples/file")) {
         *file = NOISE.into();
     }
     // A JSON value always has a text.

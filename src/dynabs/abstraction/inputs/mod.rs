@@ -1,19 +1,30 @@
-//! Actions that are inputs: any system, known noise.
+//! Actions that are inputs: any system, any noise.
 //!
 //! A cell's image under an input lands on a lattice ([`crate::landing`]); the noise takes it on from there. Nothing is
 //! stored per transition, and the abstraction has bounds on both sides.
 
+mod correlated;
+mod reach;
 mod resolution;
+mod sampled;
+#[cfg(test)]
+mod sampled_tests;
 mod tables;
 
-use crate::landing::{Axis, Images, Landing, LandingError, Layout, Question, occurring};
+use crate::Warning;
+use crate::guarantee::Evidence;
+use crate::landing::{Axis, Images, Landing, LandingError, Layout, Question, Stencil, Taps, occurring};
 use crate::noise::known::Distribution;
-use crate::partition::CellId;
-use crate::problem::InputProblem;
+use crate::partition::{CellId, GridError};
+use crate::problem::{InputNoise, InputProblem};
+use crate::statistics::BudgetError;
 use crate::system::{ImageError, ImageMap, Lattice};
 use crate::task::{Aim, CellTask};
 use imdp::model::{MemoryError, require_memory};
+use imdp::numeric::Rational;
 use imdp::property::{PathFormula, Property, Resolution, StateFormula};
+use reach::Reach;
+use sampled::Proved;
 use std::time::{Duration, Instant};
 use tables::Tables;
 
@@ -28,6 +39,12 @@ pub struct InputAbstraction {
     open: Vec<u32>,
     task: CellTask,
     steps: Option<u64>,
+    /// The landing of the model that files have, where that is looser.
+    relaxed: Option<Landing>,
+    /// What the probabilities rest on.
+    pub evidence: Evidence,
+    /// What the user should know.
+    pub warnings: Vec<Warning>,
     /// How many sub-cells a cell has, by coordinate.
     pub resolution: Vec<u32>,
     /// The number of cells in which something could be decided but no input is enabled.
@@ -53,6 +70,22 @@ pub enum InputsError {
         "no input is enabled in any cell: no input leaves room for the feedback\n  Use smaller cells, a smaller gain or a larger U."
     )]
     NothingEnabled,
+    /// The samples prove too little.
+    #[error(
+        "{samples} samples leave {unseen} of the probability unseen; expected enough for at most half of it\n  Take more samples, or a lower confidence."
+    )]
+    TooFewSamples {
+        /// The number of samples.
+        samples: u64,
+        /// The bound on the unseen mass.
+        unseen: f64,
+    },
+    /// The budget was overspent: a mistake in this program.
+    #[error(transparent)]
+    Budget(#[from] BudgetError),
+    /// The lattice makes no grid: a mistake in this program.
+    #[error(transparent)]
+    Grid(#[from] GridError),
 }
 
 impl InputAbstraction {
@@ -63,7 +96,7 @@ impl InputAbstraction {
     pub fn new(problem: &InputProblem) -> Result<Self, InputsError> {
         let start = Instant::now();
         let grid = problem.grid();
-        let noisy: Vec<bool> = problem.noise().iter().map(Option::is_some).collect();
+        let noisy = problem.noise().noisy(grid.dimension());
         let resolution = resolution::choose(problem);
         let lattice = Lattice::new(grid, &resolution, &noisy);
         let inputs = problem.inputs();
@@ -79,19 +112,7 @@ impl InputAbstraction {
             (0..grid.num_cells()).filter(|&cell| !task.open(cell as usize).is_empty()).collect();
         let occurs = occurring(&tables, &ordinary, grid.dimension());
         let extent: Vec<_> = (0..grid.dimension()).map(|j| tables.extent(j, &occurs[j])).collect();
-        let axis = |j: usize| {
-            let cells = grid.axes()[j].cells() as usize;
-            let noise = problem.noise()[j].as_ref().map(|noise: &Distribution| {
-                let pitch =
-                    grid.axes()[j].width() / imdp::numeric::Rational::from_integer(resolution[j].into());
-                noise.taps(
-                    &pitch,
-                    reach(extent[j], (cells as i64) * i64::from(resolution[j]), problem.periodic()[j]),
-                )
-            });
-            Axis::new(cells, resolution[j] as usize, problem.periodic()[j], noise, extent[j])
-        };
-        let landing = Landing::new((0..grid.dimension()).map(axis).collect());
+        let Landed { landing, relaxed, evidence, warnings } = landed(problem, &resolution, &extent)?;
         let pairs = ordinary.len() as u64 * inputs.len() as u64;
         let layout = Layout::new(&tables, &occurs, landing.axes(), pairs)?;
         require_memory(
@@ -107,6 +128,9 @@ impl InputAbstraction {
             task: task.clone(),
             steps: problem.horizon(),
             landing,
+            relaxed,
+            evidence,
+            warnings,
             images,
             open,
             resolution,
@@ -120,6 +144,16 @@ impl InputAbstraction {
         Question { landing, images, open, task, steps: *steps }
     }
 
+    /// The task on the lattice of the model that files have: looser where no interval model says as much as the samples.
+    pub fn exported(&self) -> Question<'_> {
+        Question { landing: self.relaxed.as_ref().unwrap_or(&self.landing), ..self.question() }
+    }
+
+    /// Whether the model that files have is looser than the task on the lattice.
+    pub fn is_relaxed(&self) -> bool {
+        self.relaxed.is_some()
+    }
+
     /// The number of pairs of a cell and an input that is enabled in it.
     pub fn num_choices(&self) -> usize {
         self.images.len()
@@ -128,11 +162,6 @@ impl InputAbstraction {
     /// How many steps of the model are one of the system.
     pub fn micro_steps(&self) -> u64 {
         self.question().micro_steps()
-    }
-
-    /// The most mass of a component of the noise that is not listed.
-    pub fn unlisted(&self) -> f64 {
-        self.landing.axes().iter().flat_map(|axis| &axis.noise).map(|taps| taps.slack()).fold(0.0, f64::max)
     }
 
     /// Whether something could be decided in a cell but no input is enabled.
@@ -159,6 +188,68 @@ impl InputAbstraction {
             Some(cell) => vec![cell.0],
             None if self.open.is_empty() => (0..self.task.num_cells() as u32).collect(),
             None => self.open.clone(),
+        }
+    }
+}
+
+/// Where noise takes what lands, and what that rests on.
+struct Landed {
+    landing: Landing,
+    relaxed: Option<Landing>,
+    evidence: Evidence,
+    warnings: Vec<Warning>,
+}
+
+fn landed(problem: &InputProblem, resolution: &[u32], extent: &[(i64, i64)]) -> Result<Landed, InputsError> {
+    let axes = problem.grid().axes();
+    let pitch: Vec<Rational> = axes
+        .iter()
+        .zip(resolution)
+        .map(|(axis, &r)| axis.width() / Rational::from_integer(r.into()))
+        .collect();
+    let sub_cells = |j: usize| i64::from(axes[j].cells()) * i64::from(resolution[j]);
+    let axis = |j: usize, noise: Option<Taps>| {
+        Axis::new(axes[j].cells() as usize, resolution[j] as usize, problem.periodic()[j], noise, extent[j])
+    };
+    let all = 0..axes.len();
+    let in_boxes = |noise: &[Stencil]| {
+        Landing::with_noise_in_boxes(all.clone().map(|j| axis(j, None)).collect(), extent, noise)
+    };
+    let known = |landing: Landing, unlisted: f64| Landed {
+        landing,
+        relaxed: None,
+        evidence: Evidence::Known { unlisted },
+        warnings: vec![],
+    };
+    match problem.noise() {
+        InputNoise::Components(components) => {
+            let taps = |j: usize, noise: &Distribution| {
+                noise.taps(&pitch[j], reach(extent[j], sub_cells(j), problem.periodic()[j]))
+            };
+            let taps = |j: usize| components[j].as_ref().map(|noise| taps(j, noise));
+            let landing = Landing::new(all.clone().map(|j| axis(j, taps(j))).collect());
+            let slacks = landing.axes().iter().flat_map(|axis| &axis.noise).map(Taps::slack);
+            let unlisted = slacks.fold(0.0, f64::max);
+            Ok(known(landing, unlisted))
+        }
+        InputNoise::Gaussian(noise) => {
+            let far = |j: usize| (-4 * sub_cells(j) - 16, 4 * sub_cells(j) + 16);
+            let noise = correlated::stencils(noise, &pitch, &all.clone().map(far).collect::<Vec<_>>());
+            let unlisted = noise.iter().map(|noise| noise.elsewhere).fold(0.0, f64::max);
+            Ok(known(in_boxes(&noise), unlisted))
+        }
+        InputNoise::Sampled(samples) => {
+            let reach = |j| Reach::new(extent[j], sub_cells(j), problem.periodic()[j]);
+            let reach: Vec<Reach> = all.clone().map(reach).collect();
+            let Proved { noise, evidence, warnings } = sampled::prove(samples, &pitch, &reach)?;
+            let relaxed: Vec<Stencil> = noise.iter().map(Stencil::relaxed).collect();
+            let is_looser = noise.iter().any(|noise| noise.band.is_some());
+            Ok(Landed {
+                landing: in_boxes(&noise),
+                relaxed: is_looser.then(|| in_boxes(&relaxed)),
+                evidence: Evidence::Samples(evidence),
+                warnings,
+            })
         }
     }
 }

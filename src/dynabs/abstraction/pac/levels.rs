@@ -202,7 +202,7 @@ pub(super) struct EventLevels {
 ///
 /// The width of an interval is least in total if levels are proportional to the square root of the
 /// probabilities, so to a wide bell. Heavy tails, because how wide is not known.
-fn offset_weight(dimension: usize, square: u64) -> u64 {
+pub(in super::super) fn offset_weight(dimension: usize, square: u64) -> u64 {
     let base = 1.0 + square as f64 / (4.0 * dimension as f64);
     inverse_power(base, dimension.div_ceil(2) + 1)
 }
@@ -218,7 +218,7 @@ fn inverse_power(base: f64, exponent: usize) -> u64 {
 }
 
 /// The sum of the weights of all offsets in a box.
-fn total_offset_weight(ranges: &[(i64, i64)]) -> BigInt {
+pub(in super::super) fn total_offset_weight(ranges: &[(i64, i64)]) -> BigInt {
     // How many offsets have each squared length, dimension by dimension.
     let mut numbers: HashMap<u64, u128> = HashMap::from([(0, 1)]);
     for &(low, high) in ranges {

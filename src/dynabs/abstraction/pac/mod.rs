@@ -100,6 +100,7 @@ use imdp::numeric::{round_decimal_down, round_decimal_up};
 use imdp::progress::Progress;
 use imdp::solver::worst_expectations;
 use levels::{EventLevels, LowerBounds};
+pub(super) use levels::{offset_weight, total_offset_weight};
 pub(super) use prepared::Prepared;
 use rayon::prelude::*;
 use roomy::RoomBounds;
@@ -219,6 +220,7 @@ impl<'a> PacRows<'a> {
             sweep: prepared.sweep,
             budget: prepared.budget.allocations().to_vec(),
             unseen_mass: prepared.unseen.first().copied().unwrap_or(1.0),
+            components: None,
         }
     }
 

@@ -3,9 +3,9 @@
 use super::input_check::{InputCheck, Violation};
 use super::runs::{End, RunOutcome};
 use super::witness::Witness;
-use super::{Tally, Trajectory, TrajectoryStep};
+use super::{Noise, Tally, Trajectory, TrajectoryStep};
 use crate::controller::{Decision, InputController, RunMemory};
-use crate::problem::InputProblem;
+use crate::problem::{InputNoise, InputProblem};
 use imdp::progress::Progress;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha12Rng;
@@ -31,6 +31,8 @@ pub struct InputSimulation<'a> {
     inputs: Option<InputCheck>,
     witness: Witness<'a>,
     parameters: ParameterChoice,
+    /// Where the noise comes from if only samples are known.
+    sampled: Option<Noise>,
     most_steps: u64,
 }
 
@@ -54,6 +56,7 @@ impl<'a> InputSimulation<'a> {
             inputs: problem.set().map(InputCheck::new),
             witness: Witness::new(problem.objective(), problem.unsafe_regions()),
             parameters,
+            sampled: problem.noise().samples().map(|samples| Noise::of(&samples.noise)),
             most_steps: problem.horizon().unwrap_or(most_steps),
         }
     }
@@ -140,12 +143,24 @@ impl<'a> InputSimulation<'a> {
         }
     }
 
+    /// The noise of one step, as truly as it is known.
+    fn draw(&self, dimension: usize, rng: &mut impl Rng) -> Vec<f64> {
+        let mut noise = vec![0.0; dimension];
+        match (self.problem.noise(), &self.sampled) {
+            (InputNoise::Components(components), _) => {
+                let drawn = components.iter().map(|one| one.as_ref().map_or(0.0, |one| one.draw(rng)));
+                noise = drawn.collect();
+            }
+            (InputNoise::Gaussian(joint), _) => joint.draws.draw(rng, &mut noise),
+            (InputNoise::Sampled(_), Some(source)) => source.draw(rng, &mut noise),
+            (InputNoise::Sampled(_), None) => {}
+        }
+        noise
+    }
+
     /// The next state, its periodic coordinates in the partition.
     fn step(&self, x: &[f64], u: &[f64], rng: &mut impl Rng, scratch: &mut Vec<f64>) -> Vec<f64> {
-        let draw = |noise: &Option<crate::noise::known::Distribution>| {
-            noise.as_ref().map_or(0.0, |noise| noise.draw(rng))
-        };
-        let noise: Vec<f64> = self.problem.noise().iter().map(draw).collect();
+        let noise = self.draw(x.len(), rng);
         let boxes = self.problem.mode().parameters();
         let mut go = |parameters: &[f64]| {
             let mut next = vec![0.0; x.len()];
