@@ -13,6 +13,7 @@ mod covered;
 mod crosscheck_engines;
 mod crosscheck_storm;
 mod diff;
+mod enclosure;
 mod faults;
 mod formats;
 mod guarantee;

@@ -14,6 +14,7 @@
 //!
 //! All numbers are rounded to the side that they bound: sums of products of numbers in `[0, 1]` err by a known factor.
 
+mod arrays;
 mod arrivals;
 mod axis;
 mod gather;

@@ -1,9 +1,10 @@
 //! Runs of problems whose actions are inputs: written, and opened again.
 
 use super::RunFiles;
-use super::appearance::PROBLEM;
+use super::appearance::{NATIVE_MODEL, PROBLEM};
+use super::error::OpenError;
 use super::manifest::{GroupedHorizon, InputFile, Manifest};
-use super::open::{OpenError, problem_document};
+use super::open::problem_document;
 use super::staging::{RunDirectoryError, Staging};
 use super::write::WriteOptions;
 use crate::abstraction::inputs::InputAbstraction;
@@ -137,7 +138,7 @@ pub fn write_input_run(
             });
         for format in Format::ALL.into_iter().filter(|format| options.formats.contains(format)) {
             if format == Format::Native {
-                staging.write(super::NATIVE_MODEL, |out| native::write(&model, out))?;
+                staging.write(NATIVE_MODEL, |out| native::write(&model, out))?;
                 continue;
             }
             let writer = ModelWriter::new(&model, format, Compression::Gzip)?;
