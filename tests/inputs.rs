@@ -133,7 +133,8 @@ fn mistakes_are_explained() {
         let error = mistake(pointer, value);
         assert!(error.contains(expected), "{pointer}: {error}");
     }
-    let mut targets = car(json!({"type": "stay", "horizon": 3}), 10);
+    let mut targets =
+        car(json!({"type": "reach_at", "goal": [{"lower": [4, -4], "upper": [10, 0]}], "horizon": 3}), 10);
     targets["actions"] = "targets".into();
     targets["noise"] = json!({"gaussian": {"covariance": [[1, 0], [0, 1]]}, "count": 10});
     targets["input"] = json!({"lower": [-1, -1], "upper": [1, 1]});

@@ -1,9 +1,12 @@
 //! Tasks over named regions: values, what the closed loop does, the C code.
 
-use crate::common::c_compiler;
+use crate::common::controllers::Loop;
+use crate::common::{c_compiler, root};
 use dynabs::abstraction::inputs::InputAbstraction;
 use dynabs::controller::export::{input_c_source, write_input_csv, write_input_json};
-use dynabs::controller::{Decision, InputController, InputSimulation, ParameterChoice, RunMemory};
+use dynabs::controller::{
+    Decision, InputController, InputSimulation, Noise, ParameterChoice, RunMemory, Simulation,
+};
 use dynabs::guarantee::Safety;
 use dynabs::landing::LandingSolution;
 use dynabs::model_file::{Document, StatedProblem};
@@ -317,6 +320,7 @@ fn mistakes_are_explained() {
         (json!({"goal": ["c"], "horizon": 5}), "\"F goal\""),
         (json!({"goal": ["d"], "horizon": 5}), "one of a, b, c"),
         (json!({"type": "reach_at", "goal": ["a"], "horizon": "infinite"}), "/task/horizon"),
+        (json!({"type": "reach_at", "goal": ["a"], "horizon": 1_000_000_000}), "at most 7456540 steps"),
         (json!({"type": "automaton", "automaton": {}, "horizon": 5}), "exactly one of file and hoa"),
         (
             json!({"type": "automaton", "automaton": {"file": "none.hoa"}, "horizon": 5}),
@@ -336,4 +340,37 @@ fn mistakes_are_explained() {
         assert!(error.contains(expected), "{error}");
     }
     assert_eq!(stated(formula("(F a) & G !b", "ltlf", 5)).unwrap().cell_task().aim(), Aim::End);
+}
+
+#[test]
+fn examples_are_what_the_tool_reads() {
+    let folder = root().join("examples/tasks");
+    let mut found = 0;
+    for file in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
+        if file.extension().is_some_and(|extension| extension == "json") {
+            let document = Document::parse(&file, &fs::read_to_string(&file).unwrap()).unwrap();
+            document.stated().unwrap();
+            found += 1;
+        }
+    }
+    assert_eq!(found, 6);
+}
+
+/// To stay is a task for targets and samples too: the model has no goal, and the closed loop keeps the promise.
+#[test]
+fn targets_can_be_asked_to_stay() {
+    let sets = [
+        r#"/task={"type":"stay","safe":[{"lower":[1],"upper":[9]}],"unsafe":[{"lower":[8.5],"upper":[null]}],"horizon":5}"#,
+        "/initial_state=[3]",
+    ];
+    let Loop { problem, abstraction, answer, controller } = Loop::of("room_temperature", &sets);
+    assert_eq!(abstraction.property.to_string(), "Pmaxmin=? [ G<=5 !\"failed\" ]");
+    assert!(abstraction.model.labels().get("reached").unwrap().is_clear());
+    let bounds = [answer.lower, answer.upper];
+    let claim = abstraction.guarantee.claim(&abstraction.property, &abstraction.model, bounds);
+    assert!(claim.unwrap().covered);
+    let simulation = Simulation::new(&problem, &controller, Noise::of(problem.noise()), 5);
+    let seen = simulation.tally(&[3.0], 1, 4000, &()).satisfaction(Safety::EveryStep, 1e-6);
+    assert!(answer.lower > 0.5 && seen.upper >= answer.lower, "{} {seen:?}", answer.lower);
+    assert!(controller.promise()[0].contains("stays in the safe region for 5 steps"));
 }

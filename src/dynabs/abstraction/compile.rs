@@ -13,6 +13,7 @@ use crate::guarantee::{Event, Evidence, Guarantee};
 use crate::partition::{CellId, CellKind, Grid};
 use crate::problem::{Probabilities, Problem};
 use crate::system::FeedbackLaw;
+use crate::task::Aim;
 use imdp::model::{
     ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, ModelKind, Parts, RowRange, Rows, StateId,
     StateSet,
@@ -87,7 +88,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
 
     let is_pac = matches!(intervals, Intervals::Pac(_));
     let (reached, failed) = outcome_states(problem, &states, &blocked, is_pac);
-    let property = reach_avoid(problem);
+    let property = task_property(problem);
     let model_of = |rows: Rows| -> Result<IntervalMdp, ImdpError> {
         IntervalMdp::new(Parts {
             kind: ModelKind::Imdp,
@@ -170,7 +171,7 @@ impl Abstraction {
         clock.lap("enabled actions");
         let blocked = states.select(|state| is_blocked(problem, &states, model.choices(), state));
         Ok(Self {
-            property: reach_avoid(problem),
+            property: task_property(problem),
             state_of_cell: state_of_cell(problem.grid(), &states),
             warnings: warnings(problem, blocked.count_ones(..)),
             model,
@@ -247,12 +248,14 @@ fn outcome_states(
     }
 }
 
-/// `Pmaxmin=? [ !"failed" U<=k "reached" ]`, compared with the threshold if there is one.
-fn reach_avoid(problem: &Problem) -> Property {
-    let path = PathFormula::Until {
-        left: StateFormula::negation(StateFormula::label("failed")),
-        right: StateFormula::label("reached"),
-        steps: problem.horizon(),
+/// `Pmaxmin=? [ !"failed" U<=k "reached" ]`, or `G<=k !"failed"`, compared with the threshold if there is one.
+fn task_property(problem: &Problem) -> Property {
+    let (safe, steps) = (StateFormula::negation(StateFormula::label("failed")), problem.horizon());
+    let path = match problem.objective().aim() {
+        Aim::Stay => PathFormula::Globally { formula: safe, steps },
+        Aim::Reach | Aim::End => {
+            PathFormula::Until { left: safe, right: StateFormula::label("reached"), steps }
+        }
     };
     match problem.threshold() {
         None => Property::value(Resolution::Pmaxmin, path),

@@ -22,8 +22,9 @@ pub(super) const REACHED: StateId = StateId(1);
 pub(super) const OUTSIDE: StateId = StateId(0);
 
 impl StateSpace {
-    /// `pac`: state 0 is `failed`, 1 is `reached`, then the ordinary cells.
+    /// `pac`: state 0 is `failed`, 1 is `reached` if there is a goal, then the ordinary cells.
     pub(super) fn merged(labels: &CellLabels) -> Self {
+        let heads: u32 = if labels.count(CellKind::Goal) > 0 { 2 } else { 1 };
         let mut cells = Vec::with_capacity(labels.count(CellKind::Ordinary));
         let of_cell = labels
             .iter()
@@ -32,11 +33,11 @@ impl StateSpace {
                 CellKind::Goal => REACHED,
                 CellKind::Ordinary => {
                     cells.push(cell);
-                    StateId::from_index(1 + cells.len())
+                    StateId::from_index(heads as usize - 1 + cells.len())
                 }
             })
             .collect();
-        Self { heads: 2, of_cell, cells }
+        Self { heads, of_cell, cells }
     }
 
     /// `reference`: state 0 is outside, 1 and 2 are unused, then all cells.

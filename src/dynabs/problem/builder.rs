@@ -5,7 +5,7 @@ use super::problem::Problem;
 use super::values::vector;
 use super::{
     Dynamics, GroupSteps, InputSet, LowerLayer, NoiseSource, Partition, Probabilities, TargetChoice, Task,
-    Wanted, dynamics, lower_layer, regions, task,
+    dynamics, lower_layer, regions, task,
 };
 use crate::Diagnostic;
 use crate::partition::Grid;
@@ -117,11 +117,7 @@ impl ProblemBuilder {
         let grid = given(self.partition, "partition")?.grid("/partition", n)?;
         let actions = regions::actions("/targets", &self.targets, n)?;
         let wanted = given(self.task, "task")?;
-        if !matches!(wanted.aim, Wanted::Reach { .. }) {
-            let found = "a task other than to reach a goal, for actions that steer to targets";
-            return Err(Diagnostic::at("/task/type", found, "a task to reach a goal")
-                .remedy("With \"actions\": \"inputs\" and known noise there are other tasks."));
-        }
+        task::require_steerable(&wanted, group_steps, &self.probabilities)?;
         let task = task::CheckedTask::new(&wanted, &grid, group_steps)?;
         let initial = self.initial_state.map(|state| initial(state, &grid)).transpose()?;
         let stabilizer =

@@ -166,6 +166,14 @@ impl Problem {
         }
     }
 
+    /// The goal, or the region to stay in, which is the whole partition if empty.
+    pub fn wanted(&self) -> &[Region] {
+        match &self.objective {
+            Objective::Reach { goal: wanted } | Objective::Stay { safe: wanted } => wanted,
+            Objective::Automaton(_) => &[],
+        }
+    }
+
     /// The unsafe region.
     pub fn unsafe_regions(&self) -> &[Region] {
         &self.unsafe_

@@ -199,9 +199,40 @@ impl CheckedTask {
             warnings.extend(near_misses(grid, &regions).into_iter().map(warning));
         }
         let (labels, cell_task) = cell_task(&objective, &unsafe_, grid)?;
+        require_numbers(&cell_task, task.horizon)?;
         let horizon = horizon(task.horizon, d, &mut warnings)?;
         let threshold = task.threshold.map(threshold).transpose()?;
         Ok(Self { objective, unsafe_, outside_is_unsafe, labels, cell_task, horizon, threshold, warnings })
+    }
+}
+
+/// That actions which steer to targets, for `d` steps at once, can be asked for a task.
+pub(super) fn require_steerable(
+    task: &Task,
+    d: usize,
+    probabilities: &Probabilities,
+) -> Result<(), Diagnostic> {
+    let inputs = "With \"actions\": \"inputs\" there are tasks of all types.";
+    match &task.aim {
+        Wanted::Reach { .. } => Ok(()),
+        Wanted::Stay { .. } if matches!(probabilities, Probabilities::Reference { .. }) => {
+            let found = "a task to stay somewhere in mode \"reference\"";
+            Err(Diagnostic::at("/task/type", found, "\"reach\" there: the published tool has no other"))
+        }
+        Wanted::Stay { safe } => {
+            let in_partition = safe.is_empty() && task.unsafe_.contains(&Hazard::Outside);
+            if d == 1 || in_partition || task.check == Some(Safety::GroupedInstants) {
+                return Ok(());
+            }
+            let found = format!("a region to stay in at the end of every {d} steps only");
+            Err(Diagnostic::at("/task/safe", found, "the whole partition, at every step").remedy(
+                "Leave \"safe\" out, list \"outside\" and what lies around the region as unsafe, or accept \"check\": \"grouped\".",
+            ))
+        }
+        _ => {
+            let found = "a task with a memory, for actions that steer to targets";
+            Err(Diagnostic::at("/task/type", found, "\"reach\" or \"stay\"").remedy(inputs))
+        }
     }
 }
 
@@ -287,6 +318,25 @@ fn at_step(goal: Vec<Region>, unsafe_: &[Region], horizon: Horizon) -> Result<Au
         regions.push(boxes("unsafe", unsafe_));
     }
     Ok(AutomatonTask::new(&dfa, task::Aim::End, regions, format!("the state is in the goal at step {steps}")))
+}
+
+/// That memories in cells can be numbered, with the steps where the last one decides.
+fn require_numbers(task: &CellTask, horizon: Horizon) -> Result<(), Diagnostic> {
+    let pairs = u64::from(task.memories()).saturating_mul(task.num_cells() as u64);
+    let most = u64::from(Grid::MAX_CELLS);
+    if pairs > most {
+        let found = format!("{} memories in {} cells", task.memories(), task.num_cells());
+        return Err(Diagnostic::at("/task", found, format!("at most {most} together"))
+            .remedy("Simplify the task or use fewer cells."));
+    }
+    match (task.aim(), horizon) {
+        (task::Aim::End, Horizon::Steps(steps)) if steps.saturating_mul(pairs) > most => {
+            let expected = format!("at most {} steps, if the last one decides", most / pairs.max(1));
+            Err(Diagnostic::at("/task/horizon", steps.to_string(), expected)
+                .remedy("Use fewer cells, or a task that a prefix of the run decides."))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// What an objective makes of the cells.

@@ -67,7 +67,7 @@ pub(super) fn embed(material: &Material<'_>, view: &View) -> Embedded {
         "targets": targets(material),
         "mean": material.noise_mean,
         "ranges": ranges,
-        "goal": regions(problem.goal(), material.dimension()),
+        "goal": regions(problem.wanted(), material.dimension()),
         "unsafe": regions(problem.unsafe_regions(), material.dimension()),
         "threshold": problem.threshold().map(|threshold| threshold.to_f64()),
         "runs": runs(material),

@@ -8,6 +8,7 @@ use crate::geometry::Polytope;
 use crate::linear_algebra::ExactMatrix;
 use crate::partition::Region;
 use crate::system::LinearSystem;
+use crate::task::Aim;
 use imdp::numeric::to_f64;
 use num_traits::{Signed, Zero};
 
@@ -62,14 +63,15 @@ pub(super) fn model(material: &Material<'_>) -> String {
         })
         .collect();
     text += &format!("<p>Partition: {}; everything outside counts as failed.</p>\n", grid.join(", "));
-    text += &format!(
-        "<p>Task: reach the goal {}, avoiding the unsafe region.</p>\n",
-        match problem.horizon() {
-            Some(steps) => format!("within {} steps", steps * d as u64),
-            None => "at any time".to_owned(),
-        }
-    );
-    text += &boxes("Goal", problem.goal());
+    let steps = problem.horizon().map(|steps| steps * d as u64);
+    let (what, wanted) = match (problem.objective().aim(), steps) {
+        (Aim::Stay, Some(steps)) => (format!("stay in the safe region for {steps} steps"), "Safe region"),
+        (Aim::Stay, None) => ("stay in the safe region for ever".to_owned(), "Safe region"),
+        (_, Some(steps)) => (format!("reach the goal within {steps} steps"), "Goal"),
+        (_, None) => ("reach the goal at any time".to_owned(), "Goal"),
+    };
+    text += &format!("<p>Task: {what}, avoiding the unsafe region.</p>\n");
+    text += &boxes(wanted, problem.wanted());
     text += &boxes("Unsafe region", problem.unsafe_regions());
     let seed = problem.noise().seed().map_or(String::new(), |seed| format!(", drawn with seed {seed}"));
     let file = problem.noise().file().map_or(String::new(), |(name, _)| format!(", from {}", escape(name)));

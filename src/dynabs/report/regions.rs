@@ -11,7 +11,7 @@ use crate::partition::Region;
 pub(super) fn regions(material: &Material<'_>, view: &View, frame: &Frame, id: &str) -> String {
     let problem = material.problem();
     let mut text = String::new();
-    for (class, list) in [("unsafe", problem.unsafe_regions()), ("goal", problem.goal())] {
+    for (class, list) in [("unsafe", problem.unsafe_regions()), ("goal", problem.wanted())] {
         let boxes: String =
             list.iter().filter_map(|region| rectangle(material, view, frame, region)).collect();
         if boxes.is_empty() {

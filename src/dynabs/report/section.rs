@@ -56,7 +56,7 @@ fn bands(material: &Material<'_>, view: &View, along: usize, frame: &Frame) -> S
         list.iter().filter(on_line).map(band).collect()
     };
     let problem = material.problem();
-    let (avoid, goal) = (path(problem.unsafe_regions()), path(problem.goal()));
+    let (avoid, goal) = (path(problem.unsafe_regions()), path(problem.wanted()));
     let mut text = String::new();
     if !avoid.is_empty() {
         text += &format!("<path fill=\"url(#section-hatch)\" d=\"{avoid}\"/>");

@@ -5,6 +5,7 @@ use super::{Noise, Plant, Tally};
 use crate::controller::{Controller, Decision};
 use crate::partition::RegionLookup;
 use crate::problem::Problem;
+use crate::task::Aim;
 use imdp::progress::Progress;
 use rand::SeedableRng;
 use rand_chacha::ChaCha12Rng;
@@ -17,7 +18,9 @@ pub struct Simulation<'a> {
     controller: &'a Controller,
     plant: Plant,
     inputs: InputCheck,
-    goal: Vec<RegionLookup>,
+    /// The goal, or the region to stay in.
+    wanted: Vec<RegionLookup>,
+    aim: Aim,
     avoid: Vec<RegionLookup>,
     /// Whether the outside of the partition is to be avoided at every step too.
     avoids_outside: bool,
@@ -97,7 +100,8 @@ impl<'a> Simulation<'a> {
             controller,
             plant: Plant::new(problem.step_system()),
             inputs: InputCheck::new(problem.step_input()),
-            goal: lookups(problem.goal()),
+            wanted: lookups(problem.wanted()),
+            aim: problem.objective().aim(),
             avoid: lookups(problem.unsafe_regions()),
             avoids_outside: problem.outside_is_unsafe(),
             noise,
@@ -183,9 +187,9 @@ impl<'a> Simulation<'a> {
         };
         let mut decided = false;
         loop {
-            if !decided && contains(&self.avoid, &scratch.x) {
+            if !decided && (contains(&self.avoid, &scratch.x) || self.has_left(&scratch.x)) {
                 decided = true;
-            } else if !decided && contains(&self.goal, &scratch.x) {
+            } else if !decided && self.aim == Aim::Reach && contains(&self.wanted, &scratch.x) {
                 (decided, outcome.satisfied_at_instants) = (true, true);
                 outcome.satisfied = !outcome.unsafe_between;
             }
@@ -202,6 +206,10 @@ impl<'a> Simulation<'a> {
             };
             if let Some(end) = end {
                 see(Moment { step, x: &scratch.x, u: None, decision: Some(decision) });
+                if self.aim == Aim::Stay && end == End::Over && !decided {
+                    outcome.satisfied_at_instants = true;
+                    outcome.satisfied = !outcome.unsafe_between;
+                }
                 return RunOutcome { end, ..outcome };
             }
             self.noise.draw(&mut rng, &mut scratch.noise);
@@ -232,6 +240,11 @@ impl<'a> Simulation<'a> {
 }
 
 impl Simulation<'_> {
+    /// Whether a state is outside of the region to stay in, if there is one.
+    fn has_left(&self, x: &[f64]) -> bool {
+        self.aim == Aim::Stay && !self.wanted.is_empty() && !contains(&self.wanted, x)
+    }
+
     /// Whether a state between grouped instants is unsafe.
     fn is_unsafe(&self, x: &[f64]) -> bool {
         contains(&self.avoid, x) || self.avoids_outside && self.controller.cell(x).is_none()
