@@ -2,9 +2,10 @@
 
 use super::thousands;
 use dynabs::abstraction::inputs::InputAbstraction;
+use dynabs::guarantee::lower_bound_text;
 use dynabs::landing::LandingSolution;
 use dynabs::problem::InputProblem;
-use imdp::numeric::shortest_decimal;
+use imdp::numeric::{round_decimal_up, shortest_decimal};
 use imdp::property::Verdict;
 use imdp::solver::Status;
 use serde::Serialize;
@@ -94,11 +95,11 @@ impl InputResult {
     pub(super) fn text(&self, initial: &str) -> String {
         let verdict = self.satisfied.map_or(String::new(), |satisfied| format!("{satisfied}   "));
         format!(
-            "  {verdict}value in [{:.6}, {:.6}] {initial}; best {:.6}, mean {:.6} over cells   {}, {} steps, {:.1?}\n",
-            self.lower,
-            self.upper,
-            self.best,
-            self.mean,
+            "  {verdict}value in [{}, {}] {initial}; best {}, mean {} over cells   {}, {} steps, {:.1?}\n",
+            lower_bound_text(self.lower),
+            shortest_decimal(round_decimal_up(self.upper, 6)),
+            lower_bound_text(self.best),
+            lower_bound_text(self.mean),
             self.status,
             self.steps,
             Duration::from_secs_f64(self.seconds)
