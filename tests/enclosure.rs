@@ -9,6 +9,7 @@ use dynabs::controller::{Decision, InputController};
 use dynabs::model_file::{Document, StatedProblem};
 use dynabs::partition::CellId;
 use dynabs::problem::InputProblem;
+use dynabs::task::Standing;
 use imdp::solver::SolverOptions;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -235,7 +236,11 @@ fn bounds_enclose_the_truth() {
         let abstraction = InputAbstraction::new(&case.problem).unwrap();
         let solution = abstraction.question().solve(&SolverOptions::default());
         let controller = InputController::new(&case.problem, &abstraction, &solution);
-        let decide = |cell: usize, elapsed: u64| match controller.decide_in(CellId(cell as u32), elapsed) {
+        let decide = |cell: usize, elapsed: u64| match controller.decide_in(
+            Standing::Open(0),
+            CellId(cell as u32),
+            elapsed,
+        ) {
             Decision::Apply { input } => Some(input),
             _ => None,
         };

@@ -41,6 +41,7 @@ mod solver;
 mod soundness;
 mod steering;
 mod systems;
+mod tasks;
 mod type_names;
 mod values;
 mod verify;

@@ -3,6 +3,7 @@
 mod actions;
 mod archive;
 mod index;
+mod rewards;
 mod valuations;
 
 use super::member;
@@ -173,6 +174,7 @@ impl<'a> UmbWriter<'a> {
             let name = member::state_annotation(member::OWN, member::WITHOUT_CHOICES);
             self.bitset(tar, &name, &self.deadlocks)?;
         }
+        self.rewards(tar)?;
         self.valuations(tar)
     }
 
@@ -238,8 +240,10 @@ fn raised_lower_bound(model: &IntervalMdp) -> Option<f64> {
     let bounds = model.rows().iter().flat_map(|row| row.lower.iter().chain(row.upper));
     let taken: HashSet<u64> =
         bounds.filter(|&&bound| bound <= RAISED_LOWER_BOUND).map(|bound| bound.to_bits()).collect();
-    let mut raised = RAISED_LOWER_BOUND;
-    while taken.contains(&raised.to_bits()) {
+    let upper = model.rows().iter().flat_map(|row| row.upper).filter(|&&upper| upper > 0.0);
+    // Not above any upper bound, which may be smaller still.
+    let mut raised = upper.copied().fold(RAISED_LOWER_BOUND, f64::min);
+    while taken.contains(&raised.to_bits()) && raised.next_down() > 0.0 {
         raised = raised.next_down();
     }
     Some(raised)
