@@ -4,8 +4,8 @@
 #   scripts/reproduce-benchmarks.sh [--only NAME ...] [DIRECTORY]
 #
 # Writes DIRECTORY/results.md and results.json (default out/benchmarks): cells, inputs, resolution, bound, simulated
-# value, time, memory. Needs Rust, Python 3 and 8 GB of memory for drone_3d_obstacles, which takes the longest; --only
-# leaves out all others. Ends with 1 if a bound is below what docs/benchmarks.md states.
+# value, time, memory. Needs Rust and Python 3; drone_3d_obstacles takes by far the most time and memory, --only leaves out
+# all others. Ends with 1 if a bound is below the one that is to be reached.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 (cd "$root" && cargo build --release --bins)

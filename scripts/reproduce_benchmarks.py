@@ -85,7 +85,7 @@ def measure(name, bins, scratch):
     }
     if row["start"] is not None:
         simulate = [bins / "dynabs-check", "simulate", directory, "--runs", str(RUNS), "--json", "--quiet"]
-        row["simulated"] = json.loads(run(simulate)[0])
+        row["simulated"] = json.loads(run(simulate)[0])["satisfied"]["frequency"]
     return row
 
 
@@ -101,7 +101,7 @@ def table(rows):
         simulated = row.get("simulated")
         lines.append(
             f"| `{row['name']}` | {row['cells']:,} × {row['inputs']} | {' '.join(map(str, row['resolution']))} | {start} "
-            f"| {shown(row['best'])} | {'–' if simulated is None else simulated} | {row['seconds']:.1f} s "
+            f"| {shown(row['best'])} | {'–' if simulated is None else f'{simulated:.4f}'} | {row['seconds']:.1f} s "
             f"({row['processor_seconds']:.1f} s) | {row['megabytes']:.0f} MB | {row['published']} |"
         )
     return "\n".join(lines) + "\n"

@@ -2,11 +2,11 @@
 
 use super::thousands;
 use dynabs::abstraction::inputs::InputAbstraction;
-use dynabs::guarantee::{Event, Evidence, Guarantee, SampleEvidence};
+use dynabs::guarantee::{Event, Evidence, Guarantee, SampleEvidence, lower_bound_text};
 use dynabs::landing::LandingSolution;
 use dynabs::problem::{Components, InputNoise, InputProblem};
 use dynabs::statistics::Allocation;
-use imdp::numeric::shortest_decimal;
+use imdp::numeric::{round_decimal_up, shortest_decimal};
 use imdp::property::Verdict;
 use imdp::solver::{SolverOptions, Status};
 use serde::Serialize;
@@ -118,15 +118,17 @@ impl InputResult {
         let verdict = self.satisfied.map_or(String::new(), |satisfied| format!("{satisfied}   "));
         let exported = self.exported.map_or(String::new(), |[lower, upper]| {
             format!(
-                "  the model in files is looser, for a band is no interval model: its value is in [{lower:.6}, {upper:.6}]\n"
+                "  the model in files is looser, for a band is no interval model: its value is in [{}, {}]\n",
+                lower_bound_text(lower),
+                shortest_decimal(round_decimal_up(upper, 6)),
             )
         });
         format!(
-            "  {verdict}value in [{:.6}, {:.6}] {initial}; best {:.6}, mean {:.6} over cells   {}, {} steps, {:.1?}\n{exported}",
-            self.lower,
-            self.upper,
-            self.best,
-            self.mean,
+            "  {verdict}value in [{}, {}] {initial}; best {}, mean {} over cells   {}, {} steps, {:.1?}\n{exported}",
+            lower_bound_text(self.lower),
+            shortest_decimal(round_decimal_up(self.upper, 6)),
+            lower_bound_text(self.best),
+            lower_bound_text(self.mean),
             self.status,
             self.steps,
             Duration::from_secs_f64(self.seconds)

@@ -158,15 +158,20 @@ impl Images {
         mut note: impl FnMut(u32, f64, u32),
     ) {
         let worth = self.layout.gather::<S>(landed, arrays);
+        let scanned = self.layout.is_scanned();
         let of_cell = |c: usize| {
             let mut best: Option<(f64, u32)> = None;
-            for input in 0..self.inputs {
-                let (at, shape) = self.image(c * self.inputs + input);
-                if at != NOWHERE {
-                    let value = self.layout.extremum::<S>(&worth, at, shape);
-                    if best.is_none_or(|(greatest, _)| value > greatest) {
-                        best = Some((value, input as u32));
-                    }
+            let first = c * self.inputs;
+            for (input, &at) in (0..).zip(&self.at[first..first + self.inputs]) {
+                if at == NOWHERE {
+                    continue;
+                }
+                let value = match scanned {
+                    true => self.layout.extremum::<S>(&worth, self.image(first + input as usize)),
+                    false => worth[at as usize],
+                };
+                if best.is_none_or(|(greatest, _)| value > greatest) {
+                    best = Some((value, input));
                 }
             }
             best

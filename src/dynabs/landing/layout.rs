@@ -147,6 +147,11 @@ impl Layout {
         self.runs.len() > 1
     }
 
+    /// Whether there is more to look at than the entry at the position of an image.
+    pub(super) fn is_scanned(&self) -> bool {
+        self.runs.iter().flatten().any(|&run| run != (0, 1))
+    }
+
     /// Bytes of the arrays that a step needs.
     pub(super) fn bytes(&self) -> u64 {
         8 * self.numbers
@@ -194,7 +199,7 @@ impl Layout {
     }
 
     /// The extremum over an image.
-    pub(super) fn extremum<S: Side>(&self, array: &[f64], at: u32, shape: u16) -> f64 {
+    pub(super) fn extremum<S: Side>(&self, array: &[f64], (at, shape): (u32, u16)) -> f64 {
         let mut best = array[at as usize];
         for &(from, length) in &self.runs[shape as usize] {
             let from = (at + from) as usize;
