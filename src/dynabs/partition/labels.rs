@@ -67,6 +67,11 @@ impl CellLabels {
         labels
     }
 
+    /// These kinds, one per cell.
+    pub fn from_kinds(kinds: Vec<CellKind>) -> Self {
+        Self { kinds }
+    }
+
     /// The kind of one cell.
     pub fn kind(&self, cell: CellId) -> CellKind {
         self.kinds[cell.index()]
@@ -185,7 +190,8 @@ impl Snap {
     }
 
     fn classes(&self, j: usize) -> AxisClasses {
-        let (mut sides, mut runs): (Vec<(u32, u32)>, Vec<(usize, usize)>) = (vec![], vec![]);
+        let mut sides: Vec<(u32, u32)> = vec![];
+        let mut runs: Vec<(usize, usize)> = vec![];
         for (&below, &above) in self.below[j].iter().zip(&self.above[j][1..]) {
             if sides.last() == Some(&(below, above)) {
                 runs.iter_mut().last().into_iter().for_each(|run| run.0 += 1);

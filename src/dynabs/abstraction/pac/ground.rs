@@ -1,7 +1,8 @@
 //! Where the noise of each action lands, with the intervals of the cells there.
 
 use super::super::action_counts::ActionCounts;
-use super::super::cell_counts::{CellBox, CellCounts, Count};
+use super::super::cell_box::CellBox;
+use super::super::cell_counts::{CellCounts, Count};
 use super::super::targets::Targets;
 use super::PacRows;
 use super::bounds::{BoundTable, Interval};
@@ -24,9 +25,10 @@ impl<'a> Ground<'a> {
         let grid = rows.problem.grid();
         let mut origin = vec![0; grid.dimension()];
         let (landing, windows) = rows.landings.of(rows.targets, target, grid, &mut origin);
-        let intervals = match &rows.shared {
-            Some(intervals) => Cow::Borrowed(&intervals[..]),
-            None => {
+        let intervals = match (rows.room(target), &rows.shared) {
+            (Some(room), _) => Cow::Borrowed(&room.intervals[..]),
+            (None, Some(intervals)) => Cow::Borrowed(&intervals[..]),
+            (None, None) => {
                 let from = rows.landings.target_cell(rows.targets, target);
                 Cow::Owned(intervals(&landing, &from, &rows.cells))
             }
@@ -69,7 +71,7 @@ pub(super) fn intervals(landing: &CellCounts, from: &[i32], cells: &BoundTable<u
 }
 
 /// The squared distances, in cells, of all cells of a table from one of them.
-fn squared_distances(table: &CellBox, from: &[i32]) -> Vec<u64> {
+pub(super) fn squared_distances(table: &CellBox, from: &[i32]) -> Vec<u64> {
     let mut squares = Vec::with_capacity(table.volume());
     table.for_each(|cell| {
         let along = |(&a, &b): (&i32, &i32)| (i64::from(a) - i64::from(b)).pow(2) as u64;

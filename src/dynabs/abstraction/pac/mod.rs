@@ -58,6 +58,15 @@
 //! above. *Lost* are the cells in which the law has no action at all: those where windows leave none are known only from
 //! the samples, and are listed like any other. ∎
 //!
+//! **Room.** Where the boxes widened by the window do not keep clear, they may if the noise so far stays within limits on some
+//! sides ([`Room`](super::room::Room)): a box of few possible ones, fixed by the samples that decide about proportions. Such a
+//! cell has a row of its own for the target. Two more families are about the other samples, fixed given the first ones:
+//! - *cells with room*: `P(η ∈ C, ξ in the room) ≥ l` for every cell `C` and room, by Clopper–Pearson;
+//! - *room*: `P(ξ leaves the room) ≤ κ` for every room.
+//!
+//! With `p` as above, `l ≤ P(η ∈ C, ξ in the room) ≤ p ≤ u`, for goal cells together the sum of the `l`. To what is moved to
+//! `failed`, at most `ε` or `ε` and the bound of *lost*, comes what meets something in between, which leaves the room: `κ`. ∎
+//!
 //! A lower bound of `P(η ∈ C)` itself would not do: all of that mass could be noise that meets an obstacle on its way.
 //!
 //! Moving mass to `failed` can only lower the probability of a formula that is false from `failed` on, so
@@ -69,12 +78,16 @@ mod bounds;
 mod ground;
 mod levels;
 mod prepared;
+mod roomy;
 
 use super::AbstractionError;
 use super::action_counts::{ActionCounts, TargetPlacements, for_each_cell, is_inside};
-use super::cell_counts::{CellBox, RegionCounts};
+use super::cell_box::CellBox;
+use super::cell_counts::RegionCounts;
+use super::enabling::Enabling;
 use super::footprint::need_of_rows;
 use super::outcomes::{Outcome, Outcomes};
+use super::rooms::Rooms;
 use super::states::{FAILED, REACHED, StateSpace};
 use super::targets::Targets;
 use super::windows::WINDOWS;
@@ -89,6 +102,7 @@ use imdp::solver::worst_expectations;
 use levels::{EventLevels, LowerBounds};
 pub(super) use prepared::Prepared;
 use rayon::prelude::*;
+use roomy::RoomBounds;
 
 /// The rows of all actions, with any of their windows.
 pub(super) struct PacRows<'a> {
@@ -106,6 +120,9 @@ pub(super) struct PacRows<'a> {
     /// By distance from the goal.
     goal: BoundTable<u32>,
     lost: BoundTable<()>,
+    /// By number.
+    in_rooms: Vec<RoomBounds>,
+    rooms: &'a Rooms,
     prepared: Prepared,
 }
 
@@ -114,12 +131,13 @@ impl<'a> PacRows<'a> {
     pub(super) fn new(
         problem: &'a Problem,
         prepared: Prepared,
-        targets: &'a Targets,
+        enabling: &'a Enabling,
         placements: TargetPlacements<'a>,
         states: &'a StateSpace,
         outcomes: &'a Outcomes,
     ) -> Result<Self, AbstractionError> {
         let (grid, samples) = (problem.grid(), &problem.noise().samples);
+        let Enabling { targets, rooms, .. } = enabling;
         let levels = &prepared.levels;
         let inside_only = levels.lower_bounds() == LowerBounds::InsideWindows;
         let landings = ActionCounts::in_windows(samples, placements, prepared.windows.clone(), inside_only);
@@ -130,8 +148,10 @@ impl<'a> PacRows<'a> {
             let (landing, _) = landings.of(targets, target, grid, origin);
             landing.region_counts(origin, grid, outcomes)
         };
-        let regions: Vec<RegionCounts> =
-            (0..targets.len()).into_par_iter().map_init(|| vec![0; grid.dimension()], counts).collect();
+        let regions: Vec<RegionCounts> = (0..targets.num_originals())
+            .into_par_iter()
+            .map_init(|| vec![0; grid.dimension()], counts)
+            .collect();
         let size = prepared.sample_size(samples.len() as u64);
         let cell_events = cell_events(&landings, targets, problem);
         let cells = BoundTable::new(cell_events, &size, |square| levels.cell(square));
@@ -142,7 +162,14 @@ impl<'a> PacRows<'a> {
         let of_lost = EventLevels { lower: [0.0; WINDOWS], upper: levels.lost };
         let lost = BoundTable::new(lost_events, &size, |()| of_lost);
         let shared = landings.shared().map(|landing| intervals(landing, &vec![0; grid.dimension()], &cells));
+        let between = &problem.noise().between;
+        let in_room = |&room| {
+            RoomBounds::new(room, &prepared, &landings, between, shared.as_deref().unwrap_or_default())
+        };
+        let in_rooms = rooms.distinct.par_iter().filter_map(in_room).collect();
         Ok(Self {
+            in_rooms,
+            rooms,
             problem,
             targets,
             states,
@@ -207,14 +234,22 @@ impl<'a> PacRows<'a> {
         rows
     }
 
+    /// The bounds of the room that an action needs, if it needs one.
+    fn room(&self, target: usize) -> Option<&RoomBounds> {
+        let copy = target.checked_sub(self.targets.num_originals())?;
+        self.in_rooms.get(self.rooms.of_copy[copy])
+    }
+
     /// How much may fail if the row is made with a window.
     fn failed(&self, ground: &Ground<'_>, target: usize, window: usize) -> f64 {
         let unseen = self.prepared.unseen[window];
         let most = if self.is_clean(&ground.windows[window], &ground.origin) {
             unseen
         } else {
-            (unseen + self.lost.get(self.regions[target].lost, ()).upper).next_up()
+            let original = self.targets.original(target);
+            (unseen + self.lost.get(self.regions[original].lost, ()).upper).next_up()
         };
+        let most = self.room(target).map_or(most, |room| (most + room.leaving).next_up());
         round_decimal_up(most, DIGITS).min(1.0)
     }
 
@@ -231,8 +266,11 @@ impl<'a> PacRows<'a> {
         });
         rows.push_entry(FAILED, 0.0, self.failed(ground, target, window));
         if meets_goal {
-            let event = self.goal.get(self.regions[target].goal, self.prepared.goal_distances[target]);
-            let lower = event.lower[window].max(round_decimal_down(goal_lower, DIGITS));
+            let original = self.targets.original(target);
+            let event = self.goal.get(self.regions[original].goal, self.prepared.goal_distances[original]);
+            let of_cells = round_decimal_down(goal_lower, DIGITS);
+            // The goal's own event is about noise with or without room.
+            let lower = if original == target { event.lower[window].max(of_cells) } else { of_cells };
             rows.push_entry(REACHED, lower, event.upper);
         }
         for_each_cell(table, cells, origin, grid, |cell, i| {

@@ -3,6 +3,7 @@
 mod actions;
 mod archive;
 mod index;
+mod rewards;
 mod valuations;
 
 use super::member;
@@ -173,6 +174,7 @@ impl<'a> UmbWriter<'a> {
             let name = member::state_annotation(member::OWN, member::WITHOUT_CHOICES);
             self.bitset(tar, &name, &self.deadlocks)?;
         }
+        self.rewards(tar)?;
         self.valuations(tar)
     }
 
