@@ -1,7 +1,7 @@
 //! Memory that is short: refused with an estimate and the field to change, or ended with a message; never an abort.
 #![cfg(unix)]
 
-use crate::common::root;
+use crate::common::{abstraction, root};
 use assert_cmd::cargo::cargo_bin;
 use serde_json::Value;
 use std::path::Path;
@@ -69,6 +69,18 @@ fn a_dry_run_shows_what_it_takes() {
     let sum: u64 = needs.iter().map(|need| need["bytes"].as_u64().unwrap()).sum();
     assert_eq!(json["memory"]["bytes"].as_u64(), Some(sum));
     assert!(json["memory"]["available"].as_u64().unwrap() < 2_000_000 << 10);
+}
+
+/// Rows fit into their estimate, which is not so large that what fits is refused: grids are coarse in some dimensions.
+#[test]
+fn rows_take_about_what_was_estimated() {
+    for name in ["predecessors/uav_2d", "predecessors/rendezvous_2d", "double_integrator"] {
+        let abstraction = abstraction(name, &[]);
+        let entries = abstraction.model.rows().num_entries() as u64;
+        let need = abstraction.footprint.needs().iter().find(|need| need.what == "the rows of the model");
+        let estimate = need.unwrap().bytes / 60;
+        assert!(entries <= estimate && estimate <= 8 * entries, "{name}: {entries} entries, {estimate} estimated");
+    }
 }
 
 /// Without any limit but the machine's, a typo is refused before anything is done for every cell.

@@ -48,8 +48,7 @@ impl Footprint {
 
     /// And what its rows take, by an estimate.
     pub(super) fn with_rows(mut self, problem: &Problem, steering: &Steering) -> Self {
-        let entries = (steering.targets.len() as u64).saturating_mul(row_length(problem));
-        self.needs.push(need_of_rows(problem, entries));
+        self.needs.push(need_of_rows(problem, entries(problem, steering.targets.len() as u64)));
         self
     }
 
@@ -108,13 +107,26 @@ fn ranges(problem: &Problem, steering: &Steering) -> u64 {
     found.saturating_mul(u64::from(cells)) / u64::from(probed) * 5 / 4
 }
 
-/// How many entries a row has at most: the cells that a box around all samples meets.
-fn row_length(problem: &Problem) -> u64 {
+/// How many entries the rows of so many targets have at most: the cells in a box around all samples, at every target.
+///
+/// In a box every dimension is by itself: from the centers of all cells together, `Π_j Σ_i |(i + [a_j, b_j]) ∩ [0, n_j)|` with
+/// the offsets `a_j … b_j` that samples have. Of other targets each is taken to be at the best place.
+fn entries(problem: &Problem, targets: u64) -> u64 {
     let samples = &problem.noise().samples;
+    let centers = matches!(problem.actions(), Actions::Targets(TargetPoints::Centers));
     let along = problem.grid().axes().iter().enumerate().map(|(j, axis)| {
-        let farthest = samples.iter().map(|sample| sample[j].abs()).fold(0.0, f64::max);
-        let cells = (2.0 * farthest / to_f64(axis.width())).ceil() + 2.0;
-        cells.min(f64::from(axis.cells())) as u64
+        let width = to_f64(axis.width());
+        let lowest = samples.iter().map(|sample| sample[j] / width).fold(0.0, f64::min);
+        let highest = samples.iter().map(|sample| sample[j] / width).fold(0.0, f64::max);
+        let cells = i64::from(axis.cells());
+        // As many cells as there are on either side say all; a float that is larger ends there.
+        let (a, b) = ((lowest + 0.5).floor() as i64, (highest + 0.5).floor() as i64);
+        let (a, b) = (a.max(-cells), b.min(cells));
+        if centers {
+            (0..cells).map(|i| ((i + b).min(cells - 1) - (i + a).max(0) + 1).max(0) as u64).sum()
+        } else {
+            (b - a + 2).min(cells) as u64
+        }
     });
-    along.fold(1, u64::saturating_mul)
+    along.fold(if centers { 1 } else { targets }, u64::saturating_mul)
 }
