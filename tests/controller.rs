@@ -1,7 +1,7 @@
 //! The controller: the policy's, in U, at its targets, and the same in every form it is written in.
-use crate::common::c_compiler;
 use crate::common::controllers::Loop;
 use crate::common::shipped_models;
+use crate::common::{c_compiler, compile_c};
 use dynabs::controller::export::{c_source, write_csv, write_json};
 use dynabs::controller::{Controller, Decision, InputCheck, Noise, Simulation};
 use dynabs::partition::{CellId, CellKind};
@@ -216,12 +216,7 @@ fn compare_with_c(compiler: &str, closed: &Loop, seed: u64) {
     let source = c_source(controller, &closed.problem, "controller.c").unwrap();
     let name = closed.problem.name().to_lowercase();
     let harness = HARNESS.replace("PREFIX", &name.to_uppercase()).replace("prefix", &name);
-    fs::write(scratch.path().join("controller.c"), source).unwrap();
-    fs::write(scratch.path().join("main.c"), harness).unwrap();
-    let flags = "-std=c99 -Wall -Wextra -Werror -pedantic -O2 -ffp-contract=off main.c -o main";
-    let compiled =
-        Command::new(compiler).args(flags.split(' ')).current_dir(scratch.path()).output().unwrap();
-    assert!(compiled.status.success(), "{name}: {}", String::from_utf8_lossy(&compiled.stderr));
+    compile_c(compiler, scratch.path(), &source, &harness);
 
     let mut rng = ChaCha12Rng::seed_from_u64(seed);
     let mut queries: Vec<(Vec<f64>, u32)> = (0..100_000)

@@ -2,8 +2,7 @@
 
 use crate::common::{abstraction, root};
 use assert_cmd::Command;
-use dynabs::guarantee::{Coverage, Event, Evidence, Gap, Guarantee, Safety, SampleEvidence};
-use dynabs::task::Aim;
+use dynabs::guarantee::{Coverage, Evidence, Gap, Guarantee, SampleEvidence};
 use imdp::model::{
     ActionNames, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowId, RowRange, Rows, StateId,
     StateSet, StateVariables, VariableValues,
@@ -172,17 +171,7 @@ fn small_model() -> IntervalMdp {
 fn guarantee() -> Guarantee {
     let (budget, components) = (vec![], None);
     let samples = SampleEvidence { number: 100, beta: 0.01, sweep: 1, budget, unseen_mass: 0.1, components };
-    Guarantee {
-        event: Event {
-            task: None,
-            aim: Aim::Reach,
-            horizon: None,
-            group_steps: 1,
-            safety: Safety::EveryStep,
-            outside: Safety::EveryStep,
-        },
-        evidence: Evidence::Samples(samples),
-    }
+    Guarantee { evidence: Evidence::Samples(samples), ..Guarantee::none() }
 }
 
 /// Where a path is: labels and the value of `x1`.

@@ -1,7 +1,7 @@
 //! Tasks over named regions: values, what the closed loop does, the C code.
 
 use crate::common::controllers::Loop;
-use crate::common::{c_compiler, root};
+use crate::common::{c_compiler, compile_c, root};
 use dynabs::abstraction::inputs::InputAbstraction;
 use dynabs::controller::export::{input_c_source, write_input_csv, write_input_json};
 use dynabs::controller::{
@@ -228,12 +228,7 @@ fn c_code_follows_the_memory() {
         let controller = InputController::new(&problem, &abstraction, &solution);
         let scratch = tempfile::TempDir::new().unwrap();
         let source = input_c_source(&controller, problem.name(), "controller.c").unwrap();
-        fs::write(scratch.path().join("controller.c"), source).unwrap();
-        fs::write(scratch.path().join("main.c"), HARNESS).unwrap();
-        let flags = "-std=c99 -Wall -Wextra -Werror -pedantic -O2 -ffp-contract=off main.c -o main -lm";
-        let compiled =
-            Command::new(compiler).args(flags.split(' ')).current_dir(scratch.path()).output().unwrap();
-        assert!(compiled.status.success(), "{}", String::from_utf8_lossy(&compiled.stderr));
+        compile_c(compiler, scratch.path(), &source, HARNESS);
 
         // Runs that jump anywhere, mostly within the partition.
         let mut rng = ChaCha12Rng::seed_from_u64(3);

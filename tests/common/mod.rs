@@ -98,3 +98,12 @@ pub fn c_compiler() -> Option<&'static str> {
     assert!(found.is_some() || std::env::var_os("CI").is_none(), "CI has no C compiler");
     found
 }
+
+/// Compiles generated code and what calls it without a warning; the program is `main` in the directory.
+pub fn compile_c(compiler: &str, directory: &Path, source: &str, harness: &str) {
+    fs::write(directory.join("controller.c"), source).unwrap();
+    fs::write(directory.join("main.c"), harness).unwrap();
+    let flags = "-std=c99 -Wall -Wextra -Werror -pedantic -O2 -ffp-contract=off main.c -o main -lm";
+    let compiled = Command::new(compiler).args(flags.split(' ')).current_dir(directory).output().unwrap();
+    assert!(compiled.status.success(), "{}", String::from_utf8_lossy(&compiled.stderr));
+}

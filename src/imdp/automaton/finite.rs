@@ -91,6 +91,7 @@ impl Formulas {
 
 #[cfg(test)]
 mod tests {
+    use super::super::random::{formula as random, numbers};
     use super::*;
 
     /// Whether a finite word satisfies a formula from a position on, by definition.
@@ -114,39 +115,13 @@ mod tests {
         }
     }
 
-    fn random(numbers: &mut impl Iterator<Item = u32>, depth: u32) -> Ltl {
-        let kind = numbers.next().unwrap_or(0) % if depth == 0 { 2 } else { 11 };
-        let mut operand = || Box::new(random(numbers, depth - 1));
-        match kind {
-            0 => Ltl::Proposition(0),
-            1 => Ltl::Proposition(1),
-            2 => Ltl::Not(operand()),
-            3 => Ltl::And(vec![*operand(), *operand()]),
-            4 => Ltl::Or(vec![*operand(), *operand()]),
-            5 => Ltl::Next(operand()),
-            6 => Ltl::Finally(operand()),
-            7 => Ltl::Globally(operand()),
-            8 => Ltl::Until(operand(), operand()),
-            9 => Ltl::Weak(operand(), operand()),
-            _ => Ltl::Release(operand(), operand()),
-        }
-    }
-
-    fn numbers() -> impl Iterator<Item = u32> {
-        let mut seed = 7u64;
-        std::iter::from_fn(move || {
-            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            Some((seed >> 40) as u32)
-        })
-    }
-
     fn words(length: u32) -> impl Iterator<Item = Vec<u64>> {
         (0..4u64.pow(length)).map(move |code| (0..length).map(|i| code >> (2 * i) & 3).collect())
     }
 
     #[test]
     fn finite_words_are_accepted_if_they_satisfy_the_formula() {
-        let mut numbers = numbers();
+        let mut numbers = numbers(7);
         for _ in 0..150 {
             let formula = random(&mut numbers, 3);
             let dfa = Dfa::of_ltlf(&formula).unwrap();
@@ -162,7 +137,7 @@ mod tests {
     /// A prefix decides only what every finite continuation confirms.
     #[test]
     fn prefixes_decide_safe_and_cosafe_formulas() {
-        let (mut numbers, mut found) = (numbers(), [0; 3]);
+        let (mut numbers, mut found) = (numbers(7), [0; 3]);
         for _ in 0..400 {
             let formula = random(&mut numbers, 3);
             let Ok((dfa, aim)) = Dfa::of_ltl(&formula) else {

@@ -28,6 +28,8 @@ mod finite;
 mod formulas;
 mod hoa;
 mod ltl;
+#[cfg(test)]
+mod random;
 mod run;
 mod text;
 

@@ -127,6 +127,7 @@ fn start(check: &Check, remainder: &Dnf, formulas: &mut Formulas) -> Result<Dnf,
 
 #[cfg(test)]
 mod tests {
+    use super::super::random::{formula as random, numbers};
     use super::*;
 
     /// Whether `stem` and then `cycle` for ever is accepted.
@@ -208,32 +209,9 @@ mod tests {
         }
     }
 
-    /// A formula from random numbers.
-    fn random(numbers: &mut impl Iterator<Item = u32>, depth: u32) -> Ltl {
-        let kind = numbers.next().unwrap_or(0) % if depth == 0 { 2 } else { 11 };
-        let mut operand = || Box::new(random(numbers, depth - 1));
-        match kind {
-            0 => Ltl::Proposition(0),
-            1 => Ltl::Proposition(1),
-            2 => Ltl::Not(operand()),
-            3 => Ltl::And(vec![*operand(), *operand()]),
-            4 => Ltl::Or(vec![*operand(), *operand()]),
-            5 => Ltl::Next(operand()),
-            6 => Ltl::Finally(operand()),
-            7 => Ltl::Globally(operand()),
-            8 => Ltl::Until(operand(), operand()),
-            9 => Ltl::Weak(operand(), operand()),
-            _ => Ltl::Release(operand(), operand()),
-        }
-    }
-
     #[test]
     fn words_are_accepted_if_they_satisfy_the_formula() {
-        let mut seed = 1u64;
-        let mut numbers = std::iter::from_fn(|| {
-            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            Some((seed >> 40) as u32)
-        });
+        let mut numbers = numbers(1);
         for round in 0..400 {
             let formula = random(&mut numbers, 3);
             for _ in 0..8 {
