@@ -39,6 +39,7 @@ mod reward;
 mod slow;
 mod solution;
 mod sweep;
+mod threshold;
 mod unbounded;
 mod working_memory;
 
