@@ -24,6 +24,7 @@ mod reference;
 mod row_tasks;
 mod states;
 mod steering;
+mod stencil;
 mod targets;
 mod windows;
 

@@ -82,10 +82,24 @@ impl RowBlock {
     }
 }
 
-/// The least expectation of `values ≥ 0` that each row allows, rounded down.
-pub fn worst_expectations(rows: &Rows, values: &[f64]) -> Vec<f64> {
-    let all = (0..rows.len() as RowId).collect();
-    RowBlock::new(rows, all).evaluate(rows, values, Direction::Min, Bound::Lower)
+/// The least expectations that rows allow, one row after the other: quickest if their values are alike.
+#[derive(Clone, Debug, Default)]
+pub struct WorstExpectation {
+    /// That of the row before.
+    threshold: f64,
+    scratch: Scratch,
+}
+
+impl WorstExpectation {
+    /// The least expectation of `values ≥ 0` that a row allows, rounded down.
+    pub fn of(&mut self, row: Row<'_>, values: &[f64]) -> f64 {
+        let near = row.successors.iter().position(|s| values[s.index()] == self.threshold);
+        let mut critical = near.unwrap_or(0) as u32;
+        let parts = (&mut critical, &mut self.scratch);
+        let worst = expectation((row, slack(row)), values, parts, Direction::Min, Bound::Lower);
+        self.threshold = row.successors.get(critical as usize).map_or(0.0, |s| values[s.index()]);
+        worst
+    }
 }
 
 /// `1 − Σ l`, to nearest.

@@ -66,46 +66,51 @@
 //! in floating point count for the upper bounds of every cell they may be in, for the lower bounds of none.
 
 mod bounds;
-mod ground;
+mod events;
 mod levels;
 mod prepared;
+mod preference;
 
 use super::AbstractionError;
 use super::footprint::need_of_rows;
-use super::landing::{RegionCounts, Spread};
-use super::landings::{Landings, Placements, for_each_cell, is_inside};
+use super::landing::{Landing, RegionCounts, Spread};
+use super::landings::{Landings, Placements};
 use super::outcomes::{Outcome, Outcomes};
 use super::states::{FAILED, REACHED, StateSpace};
+use super::stencil::{BoxCount, Ground, Hits, Special, Stencil, StencilRows};
 use super::targets::Targets;
 use super::windows::WINDOWS;
 use crate::guarantee::SampleEvidence;
 use crate::problem::Problem;
 use bounds::{BoundTable, DIGITS, Interval};
-use ground::{Ground, cell_events, intervals};
-use imdp::model::Rows;
+use events::{cell_events, intervals};
+use imdp::model::{RowBuffer, RowSet};
 use imdp::numeric::{round_decimal_down, round_decimal_up};
 use imdp::progress::Progress;
-use imdp::solver::worst_expectations;
 use levels::{EventLevels, LowerBounds};
+pub(super) use preference::Preference;
+use preference::Chooser;
 pub(super) use prepared::Prepared;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// The rows of all actions, with any of their windows.
 pub(super) struct PacRows<'a> {
     problem: &'a Problem,
     targets: &'a Targets,
-    states: &'a StateSpace,
-    outcomes: &'a Outcomes,
     landings: Landings<'a>,
-    /// Per action.
+    ground: Arc<Ground>,
+    lost_cells: BoxCount,
+    goal_cells: BoxCount,
+    /// Per action; nothing is counted where no window meets anything but open cells.
     regions: Vec<RegionCounts>,
     /// By squared distance from the target.
     cells: BoundTable<u64>,
-    /// The intervals of the shared landing's table.
-    shared: Option<Vec<Interval>>,
     /// By distance from the goal.
     goal: BoundTable<u32>,
     lost: BoundTable<()>,
+    /// Those of all actions, where coordinates count from the target: one per window, the largest first.
+    stencils: Option<Arc<[Stencil]>>,
     prepared: Prepared,
 }
 
@@ -116,22 +121,25 @@ impl<'a> PacRows<'a> {
         prepared: Prepared,
         targets: &'a Targets,
         placements: Placements<'a>,
-        states: &'a StateSpace,
-        outcomes: &'a Outcomes,
+        states: &StateSpace,
+        outcomes: &Outcomes,
     ) -> Result<Self, AbstractionError> {
         let (grid, samples) = (problem.grid(), &problem.noise().samples);
         let levels = &prepared.levels;
         let inside_only = levels.lower_bounds() == LowerBounds::InsideWindows;
         let landings = Landings::in_windows(samples, placements, prepared.windows.clone(), inside_only);
-        let entries = targets.len() as u64 * landings.row_length(grid) as u64;
-        need_of_rows(problem, entries).check()?;
-
-        let counts = |origin: &mut Vec<i32>, target| {
-            let (landing, _) = landings.of(targets, target, grid, origin);
-            landing.region_counts(origin, grid, outcomes)
-        };
-        let regions: Vec<RegionCounts> =
-            (0..targets.len()).into_par_iter().map_init(|| vec![0; grid.dimension()], counts).collect();
+        if landings.shared().is_none() {
+            let entries = targets.len() as u64 * landings.row_length(grid) as u64;
+            need_of_rows(problem, entries).check()?;
+        }
+        let ground = Ground::new(grid, landings.shared().map(|_| targets), |cell| match outcomes.of(cell) {
+            Outcome::Lost => FAILED,
+            Outcome::Reached => REACHED,
+            Outcome::Open => states.of_cell(cell),
+        });
+        let lost_cells = BoxCount::new(&ground, |state| state == FAILED);
+        let goal_cells = BoxCount::new(&ground, |state| state == REACHED);
+        let regions = regions(&landings, targets, problem, &ground, [&lost_cells, &goal_cells]);
         let size = prepared.sample_size(samples.len() as u64);
         let cell_events = cell_events(&landings, targets, problem);
         let cells = BoundTable::new(cell_events, &size, |square| levels.cell(square));
@@ -141,46 +149,58 @@ impl<'a> PacRows<'a> {
         // Only the upper bound is claimed and paid for: at level 0 the lower one is 0.
         let of_lost = EventLevels { lower: [0.0; WINDOWS], upper: levels.lost };
         let lost = BoundTable::new(lost_events, &size, |()| of_lost);
-        let shared = landings.shared().map(|landing| intervals(landing, &vec![0; grid.dimension()], &cells));
+        let stencils = landings.shared().map(|landing| {
+            let intervals = intervals(landing, &vec![0; grid.dimension()], &cells);
+            stencils(landing, landings.shared_windows(), &ground, &intervals, &prepared.unseen).into()
+        });
         Ok(Self {
             problem,
             targets,
-            states,
-            outcomes,
             landings,
+            ground: Arc::new(ground),
+            lost_cells,
+            goal_cells,
             regions,
             cells,
-            shared,
             goal,
             lost,
+            stencils,
             prepared,
         })
     }
 
-    /// One row per target, each with the window with which the least mass may fail.
-    pub(super) fn rows(&self, progress: &dyn Progress) -> Rows {
-        self.collect("rows", progress, |target, rows| {
-            let ground = Ground::new(self, target);
-            let failed: Vec<f64> =
-                (0..self.prepared.unseen.len()).map(|w| self.failed(&ground, target, w)).collect();
-            let best = (1..failed.len()).fold(0, |best, w| if failed[w] < failed[best] { w } else { best });
-            self.push_row(&ground, target, best, rows);
-        })
-    }
-
-    /// One row per target, each with the window with which the worst expectation of `values` is largest.
+    /// One row per target, each with the window that is preferred.
     ///
-    /// A window with less mass outside may list more cells, each of which may get some mass: which of the two
-    /// costs more depends on what these cells are worth. Whatever is chosen, the bounds hold.
-    pub(super) fn better_rows(&self, values: &[f64], progress: &dyn Progress) -> Rows {
-        self.collect("choice of windows", progress, |target, rows| {
-            let ground = Ground::new(self, target);
-            let mut candidates = Rows::new();
-            (0..self.prepared.unseen.len()).for_each(|w| self.push_row(&ground, target, w, &mut candidates));
-            let worth = worst_expectations(&candidates, values);
-            let best = (1..worth.len()).fold(0, |best, w| if worth[w] > worth[best] { w } else { best });
-            self.push_row(&ground, target, best, rows);
-        })
+    /// Whatever is chosen, the bounds hold.
+    pub(super) fn rows(
+        &self,
+        preference: Preference<'_>,
+        phase: &'static str,
+        progress: &dyn Progress,
+    ) -> RowSet {
+        progress.start(phase, self.targets.len() as u64);
+        let rows = match &self.stencils {
+            None => super::row_tasks::build_rows(self.targets.len(), progress, |target, rows| {
+                let stencils = self.stencils_of(target);
+                let mut chooser = Chooser::new(self, preference);
+                let chosen = chooser.choose(&stencils, target);
+                rows.push_row(chooser.row(&stencils, &chosen));
+            })
+            .into(),
+            Some(stencils) => StencilRows::new(
+                self.ground.clone(),
+                stencils.clone(),
+                self.targets.len(),
+                || Chooser::new(self, preference),
+                |chooser, target| {
+                    progress.advance(1);
+                    chooser.choose(stencils, target)
+                },
+            )
+            .into(),
+        };
+        progress.finish();
+        rows
     }
 
     /// What the rows rest on.
@@ -195,22 +215,21 @@ impl<'a> PacRows<'a> {
         }
     }
 
-    fn collect(
-        &self,
-        phase: &'static str,
-        progress: &dyn Progress,
-        push: impl Fn(usize, &mut Rows) + Sync,
-    ) -> Rows {
-        progress.start(phase, self.targets.len() as u64);
-        let rows = super::row_tasks::build_rows(self.targets.len(), progress, push);
-        progress.finish();
-        rows
+    /// The stencils of an action whose coordinates are those of the grid.
+    fn stencils_of(&self, target: usize) -> Vec<Stencil> {
+        let grid = self.problem.grid();
+        let (landing, windows) = self.landings.of(self.targets, target, grid, &mut vec![0; grid.dimension()]);
+        let from = self.landings.target_cell(self.targets, target);
+        let intervals = intervals(&landing, &from, &self.cells);
+        stencils(&landing, &windows, &self.ground, &intervals, &self.prepared.unseen)
     }
 
-    /// How much may fail if the row is made with a window.
-    fn failed(&self, ground: &Ground<'_>, target: usize, window: usize) -> f64 {
+    /// How much may fail if the row at `origin` is made with a window.
+    fn failed(&self, stencil: &Stencil, target: usize, origin: &[i32], window: usize) -> f64 {
         let unseen = self.prepared.unseen[window];
-        let most = if self.is_clean(&ground.windows[window], &ground.origin) {
+        let hull = stencil.runs().hull();
+        let is_clean = self.ground.contains(hull, origin) && self.lost_cells.of(hull, origin) == 0;
+        let most = if is_clean {
             unseen
         } else {
             (unseen + self.lost.get(self.regions[target].lost, ()).upper).next_up()
@@ -218,40 +237,77 @@ impl<'a> PacRows<'a> {
         round_decimal_up(most, DIGITS).min(1.0)
     }
 
-    fn push_row(&self, ground: &Ground<'_>, target: usize, window: usize, rows: &mut Rows) {
-        let grid = self.problem.grid();
-        let Ground { landing, windows, origin, intervals } = ground;
-        let (table, cells) = (landing.table(), &windows[window]);
-        let (mut meets_goal, mut goal_lower) = (false, 0.0);
-        for_each_cell(table, cells, origin, grid, |cell, i| {
-            if self.outcomes.of(cell) == Outcome::Reached {
-                meets_goal = true;
-                goal_lower = f64::next_down(goal_lower + intervals[i].lower[window]).max(0.0);
-            }
-        });
-        rows.push_entry(FAILED, 0.0, self.failed(ground, target, window));
-        if meets_goal {
+    /// The intervals of the special states of the row at `origin`.
+    fn special(&self, stencil: &Stencil, target: usize, origin: &[i32], window: usize) -> Special {
+        let meets_goal = self.goal_cells.of(stencil.runs().hull(), origin) > 0;
+        let reached = meets_goal.then(|| {
+            let mut of_cells = 0.0;
+            stencil.runs().for_each(&self.ground, origin, |first, position, length| {
+                for (i, &state) in self.ground.states[first..first + length].iter().enumerate() {
+                    if state == REACHED {
+                        of_cells = f64::next_down(of_cells + stencil.lower(position + i)).max(0.0);
+                    }
+                }
+            });
             let event = self.goal.get(self.regions[target].goal, self.prepared.goal_distances[target]);
-            let lower = event.lower[window].max(round_decimal_down(goal_lower, DIGITS));
-            rows.push_entry(REACHED, lower, event.upper);
-        }
-        for_each_cell(table, cells, origin, grid, |cell, i| {
-            if self.outcomes.of(cell) == Outcome::Open {
-                rows.push_entry(self.states.of_cell(cell), intervals[i].lower[window], intervals[i].upper);
-            }
+            (event.lower[window].max(round_decimal_down(of_cells, DIGITS)), event.upper)
         });
-        rows.finish_row();
+        Special { first: (0.0, self.failed(stencil, target, origin, window)), reached }
     }
 
-    /// Whether nothing in the window at `origin` is lost.
-    fn is_clean(&self, window: &Spread, origin: &[i32]) -> bool {
-        let grid = self.problem.grid();
-        let mut clean = is_inside(window, origin, grid);
-        if clean {
-            for_each_cell(window, window, origin, grid, |cell, _| {
-                clean &= self.outcomes.of(cell) != Outcome::Lost;
-            });
-        }
-        clean
+    /// How many entries the row at `origin` has.
+    fn length(&self, stencil: &Stencil, origin: &[i32], special: Special) -> u32 {
+        let hull = stencil.runs().hull();
+        let merged = self.lost_cells.of(hull, origin) + self.goal_cells.of(hull, origin);
+        1 + u32::from(special.reached.is_some()) + self.ground.volume(hull, origin) - merged
     }
+}
+
+/// One stencil per window, in coordinates of the landing.
+fn stencils(
+    landing: &Landing,
+    windows: &[Spread],
+    ground: &Ground,
+    intervals: &[Interval],
+    unseen: &[f64],
+) -> Vec<Stencil> {
+    let stencil = |(window, hull): (usize, &Spread)| {
+        let mut places = Vec::with_capacity(hull.volume());
+        hull.for_each(|cell| places.push(landing.table().position(cell)));
+        let usual = (0.0, round_decimal_up(unseen[window], DIGITS).min(1.0));
+        Stencil::new(hull, ground, usual, |position| {
+            let interval = &intervals[places[position]];
+            Some((interval.lower[window], interval.upper))
+        })
+    };
+    windows.iter().enumerate().map(stencil).collect()
+}
+
+/// How many samples land in the regions of the task, per action.
+fn regions(
+    landings: &Landings<'_>,
+    targets: &Targets,
+    problem: &Problem,
+    ground: &Ground,
+    merged: [&BoxCount; 2],
+) -> Vec<RegionCounts> {
+    let grid = problem.grid();
+    let shared = landings.shared().zip(landings.shared_windows().first());
+    let shared = shared.map(|(landing, window)| (Hits::new(landing, ground), window));
+    let counts = |origin: &mut Vec<i32>, target| {
+        ground.origin(target, origin);
+        match &shared {
+            Some((_, window))
+                if ground.contains(window, origin) && merged.iter().all(|cells| cells.of(window, origin) == 0) =>
+            {
+                RegionCounts::default()
+            }
+            Some((hits, _)) => hits.in_regions(ground, origin),
+            None => {
+                let (landing, _) = landings.of(targets, target, grid, &mut vec![0; grid.dimension()]);
+                Hits::new(&landing, ground).in_regions(ground, origin)
+            }
+        }
+    };
+    (0..targets.len()).into_par_iter().map_init(Vec::new, counts).collect()
 }
