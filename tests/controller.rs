@@ -32,7 +32,7 @@ fn it_does_what_the_policy_says() {
                     CellKind::Goal => Decision::Reached,
                     CellKind::Unsafe => Decision::Unsafe,
                     CellKind::Ordinary => match policy.row(abstraction.model.choices(), state, k) {
-                        Some(target) => Decision::Steer { target },
+                        Some(target) => Decision::Steer { target: target.0 },
                         None => Decision::NoAction,
                     },
                 };

@@ -5,8 +5,8 @@ use assert_cmd::Command;
 use dynabs::guarantee::{Coverage, Event, Evidence, Gap, Guarantee, Safety, SampleEvidence};
 use dynabs::landing::Aim;
 use imdp::model::{
-    ActionNames, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowRange, Rows, StateSet,
-    StateVariables, VariableValues,
+    ActionNames, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowId, RowRange, Rows, StateId,
+    StateSet, StateVariables, VariableValues,
 };
 use imdp::property::{
     IntegerExpression, PathFormula, Property, Relation, Resolution, StateFormula, parse_property,
@@ -143,13 +143,13 @@ fn small_model() -> IntervalMdp {
         set
     };
     let mut rows = Rows::new();
-    (0..5).for_each(|state| rows.push_entry(state, 0.0, 1.0));
+    (0..5).for_each(|state| rows.push_entry(StateId(state), 0.0, 1.0));
     rows.finish_row();
     let mut choices = ChoicesBuilder::with_capacity(5);
     choices.push_absorbing();
     choices.push_absorbing();
     for _ in 2..5 {
-        choices.push_range(RowRange { first: 0, last: 0 });
+        choices.push_range(RowRange { first: RowId(0), last: RowId(0) });
         choices.finish_state();
     }
     let mut labels = Labels::default();

@@ -1,8 +1,8 @@
 //! The native format: what is written is read back, and no damage goes unnoticed.
 use imdp::formats::native::{NativeError, read, read_from, write, write_file};
 use imdp::model::{
-    ActionNames, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowRange, Rows, StateSet,
-    StateVariables, VariableValues,
+    ActionNames, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowId, RowRange, Rows, StateId,
+    StateSet, StateVariables, VariableValues,
 };
 use proptest::prelude::*;
 
@@ -26,7 +26,7 @@ prop_compose! {
             let len = uppers.len().min(states);
             let first = (*first as usize) % (states - len + 1);
             for (i, upper) in uppers[..len].iter().enumerate() {
-                rows.push_entry((first + i) as u32, upper / 4.0, if i == 0 { 1.0 } else { *upper });
+                rows.push_entry(StateId((first + i) as u32), upper / 4.0, if i == 0 { 1.0 } else { *upper });
             }
             rows.finish_row();
         }
@@ -39,7 +39,7 @@ prop_compose! {
                     for &(first, len) in &ranges[..if chain { ranges.len().min(1) } else { ranges.len() }] {
                         let first = first % rows.len() as u32;
                         let last = if chain { first } else { (first + len).min(rows.len() as u32 - 1) };
-                        builder.push_range(RowRange { first, last });
+                        builder.push_range(RowRange { first: RowId(first), last: RowId(last) });
                     }
                     builder.finish_state();
                 }
@@ -102,10 +102,10 @@ proptest! {
 #[test]
 fn files_are_written_and_read() {
     let mut rows = Rows::new();
-    rows.push_entry(0, 0.25, 1.0);
+    rows.push_entry(StateId(0), 0.25, 1.0);
     rows.finish_row();
     let mut builder = ChoicesBuilder::with_capacity(1);
-    builder.push_range(RowRange { first: 0, last: 0 });
+    builder.push_range(RowRange { first: RowId(0), last: RowId(0) });
     builder.finish_state();
     let parts = Parts {
         kind: ModelKind::Imdp,

@@ -51,9 +51,9 @@ fn what_is_left_is_used() {
     let pruned = pruned(&whole.model, &whole.property);
     let policy = pruned.before.solution.policy.as_ref().unwrap();
     let mut rows = vec![false; pruned.model.rows().len()];
-    for state in 0..pruned.model.num_states() as StateId {
+    for state in StateId::first(pruned.model.num_states()) {
         let left: Vec<_> = pruned.model.choices().rows(state).collect();
-        left.iter().for_each(|&row| rows[row as usize] = true);
+        left.iter().for_each(|&row| rows[row.index()] = true);
         let mut made: Vec<_> =
             (0..policy.horizon().unwrap()).filter_map(|t| policy.choice(state, t)).collect();
         made.sort_unstable();

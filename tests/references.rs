@@ -3,7 +3,7 @@
 //! After an intended change: `scripts/update-references.sh`, which prints what changed.
 use crate::common::{abstraction, reference_mode, root, shipped_models};
 use imdp::compare::{DiffOptions, Differences, Record, Tolerance, diff, open};
-use imdp::model::Rows;
+use imdp::model::{RowId, Rows, StateId};
 use std::fs;
 
 const MODES: [&str; 2] = ["pac", "reference"];
@@ -56,12 +56,12 @@ fn every_reference_is_of_a_shipped_model_and_small() {
 }
 
 /// The same model but for one upper bound of the row of one choice.
-fn with_wider_interval(record: &Record, state: u32, choice: usize, by: f64) -> (Record, u32) {
+fn with_wider_interval(record: &Record, state: StateId, choice: usize, by: f64) -> (Record, StateId) {
     let model = record.model.as_ref().unwrap();
     let changed = model.choices().rows(state).nth(choice).unwrap();
     let mut rows = Rows::new();
     let mut successor = None;
-    for (id, row) in (0..).zip(model.rows().iter()) {
+    for (id, row) in RowId::first(model.rows().len()).zip(model.rows().iter()) {
         for ((&s, &lower), &upper) in row.successors.iter().zip(row.lower).zip(row.upper) {
             let widen = id == changed && successor.is_none() && upper < 0.5;
             successor = if widen { Some(s) } else { successor };
@@ -77,8 +77,9 @@ fn with_wider_interval(record: &Record, state: u32, choice: usize, by: f64) -> (
 #[test]
 fn one_interval_of_the_double_integrator_is_found() {
     let original = compiled("double_integrator", "pac");
-    let state = (0..1681).find(|&s| original.model.as_ref().unwrap().choices().rows(s).count() > 3).unwrap();
-    let (changed, successor) = with_wider_interval(&original, state, 2, 1e-6);
+    let state =
+        (0..1681).find(|&s| original.model.as_ref().unwrap().choices().rows(StateId(s)).count() > 3).unwrap();
+    let (changed, successor) = with_wider_interval(&original, StateId(state), 2, 1e-6);
 
     let comparison = compare(original, changed.clone());
     let intervals = comparison.section("intervals").unwrap();

@@ -148,7 +148,7 @@ fn assert_truthful(reported: &Reported) {
     let steps = run.problem.horizon().unwrap_or(0) as usize + 1;
     assert_eq!(values.len(), cells * steps);
     for (value, &state) in values.iter().zip(&run.abstraction.state_of_cell) {
-        let exact = answer.values.lower[state as usize];
+        let exact = answer.values.lower[state.index()];
         assert!(*value <= exact && exact - value < 1e-6, "{value} for {exact}");
     }
     // With nothing left to do only the goal counts, and less time never helps.

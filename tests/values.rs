@@ -9,7 +9,7 @@ fn values_by_cell(abstraction: &Abstraction) -> Vec<f64> {
     let answer = Answer::new(&abstraction.model, &abstraction.property, &SolverOptions::default()).unwrap();
     assert!(answer.values.gap() < 1e-12);
     let values = &answer.values.lower;
-    abstraction.state_of_cell.iter().map(|&state| values[state as usize]).collect()
+    abstraction.state_of_cell.iter().map(|&state| values[state.index()]).collect()
 }
 
 /// The 41 cells with x2 = 0 in a grid of 41 × 41.

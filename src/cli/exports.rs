@@ -3,7 +3,7 @@
 use super::CliError;
 use imdp::evaluation::Evaluation;
 use imdp::files::Outputs;
-use imdp::model::{IntervalMdp, StateId};
+use imdp::model::{IntervalMdp, RowId, StateId};
 use imdp::property::Verdict;
 use imdp::solver::{Answer, Policy};
 use std::fs::File;
@@ -17,10 +17,10 @@ use std::path::Path;
 /// # Errors
 /// What writing gives.
 pub(super) fn write_values(model: &IntervalMdp, answer: &Answer, out: &mut impl Write) -> io::Result<()> {
-    for state in 0..model.num_states() as StateId {
+    for state in StateId::first(model.num_states()) {
         match answer.verdict_of(state) {
             None => {
-                let value = answer.values.lower[state as usize];
+                let value = answer.values.lower[state.index()];
                 writeln!(out, "{}", imdp::numeric::shortest_decimal(value))?;
             }
             Some(Verdict::Holds) => writeln!(out, "true")?,
@@ -40,7 +40,7 @@ pub(super) fn write_evaluated(
     evaluation: &Evaluation,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    for state in 0..model.num_states() as StateId {
+    for state in StateId::first(model.num_states()) {
         match (evaluation.bounds(state), evaluation.verdict(state)) {
             (Some((lower, _)), _) if lower.is_finite() => {
                 writeln!(out, "{}", imdp::numeric::shortest_decimal(lower))?;
@@ -64,10 +64,10 @@ pub(super) fn write_evaluated(
 /// What writing gives.
 pub(super) fn write_policy(model: &IntervalMdp, policy: &Policy, out: &mut impl Write) -> io::Result<()> {
     let first_choices = first_choices(model);
-    for state in 0..model.num_states() as StateId {
+    for state in StateId::first(model.num_states()) {
         let name = |choice: u32| {
             let row = model.choices().row_of_choice(state, choice);
-            action_name(model, first_choices[state as usize] + u64::from(choice), row, choice)
+            action_name(model, first_choices[state.index()] + u64::from(choice), row, choice)
         };
         match policy.horizon() {
             None => {
@@ -102,7 +102,7 @@ pub(super) fn write_cell_values(lower: &[f64], out: &mut impl Write) -> io::Resu
 pub(super) fn write_cell_policy(policy: &Policy, cells: u32, out: &mut impl Write) -> io::Result<()> {
     for cell in 0..cells {
         for step in 0..policy.horizon().unwrap_or(1) {
-            match (policy.choice(cell, step), policy.horizon()) {
+            match (policy.choice(StateId(cell), step), policy.horizon()) {
                 (None, _) => {}
                 (Some(input), None) => writeln!(out, "{cell}=u_{input}")?,
                 (Some(input), Some(_)) => writeln!(out, "{cell},{step}=u_{input}")?,
@@ -122,10 +122,10 @@ fn first_choices(model: &IntervalMdp) -> Vec<u64> {
         total += u64::from(choices.is_absorbing(state));
         first
     };
-    (0..model.num_states() as StateId).map(of_state).collect()
+    StateId::first(model.num_states()).map(of_state).collect()
 }
 
-fn action_name(model: &IntervalMdp, index: u64, row: Option<u32>, choice: u32) -> String {
+fn action_name(model: &IntervalMdp, index: u64, row: Option<RowId>, choice: u32) -> String {
     model.actions().name(index, row).map_or_else(|| choice.to_string(), Into::into)
 }
 

@@ -73,8 +73,8 @@ impl PropertyResult {
     pub fn new(property: &Property, answer: &Answer, model: &IntervalMdp, time: Duration) -> Self {
         let in_state = |state: StateId| InitialResult {
             state,
-            lower: Some(answer.values.lower[state as usize]),
-            upper: Some(answer.values.upper[state as usize]),
+            lower: Some(answer.values.lower[state.index()]),
+            upper: Some(answer.values.upper[state.index()]),
             satisfied: answer.verdict_of(state).and_then(decided),
         };
         let verdict = answer.verdict;
@@ -99,7 +99,7 @@ impl PropertyResult {
             }
         };
         let verdicts: Option<Vec<Verdict>> =
-            model.initial().ones().map(|state| evaluation.verdict(state as StateId)).collect();
+            model.initial().ones().map(|state| evaluation.verdict(StateId::from_index(state))).collect();
         let ending = (evaluation.status, evaluation.iterations, time);
         Self::of_states(compound.to_string(), model, in_state, verdicts.map(Verdict::in_all), ending)
     }
@@ -112,7 +112,7 @@ impl PropertyResult {
         (status, steps, time): (Status, u64, Duration),
     ) -> Self {
         let initial: Vec<InitialResult> =
-            model.initial().ones().map(|state| in_state(state as StateId)).collect();
+            model.initial().ones().map(|state| in_state(StateId::from_index(state))).collect();
         let ended = matches!(status, Status::HorizonReached | Status::Converged);
         Self {
             property,

@@ -5,6 +5,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use dynabs::abstraction::compile;
 use dynabs::model_file::Document;
 use dynabs::problem::Problem;
+use imdp::model::StateId;
 use imdp::solver::{Answer, SolverOptions};
 use std::path::Path;
 
@@ -32,12 +33,12 @@ fn benchmark(criterion: &mut Criterion) {
         group.bench_function("one step over expanded transitions", |bencher| {
             bencher.iter(|| {
                 let mut best = vec![0.0f64; model.num_states()];
-                for state in 0..model.num_states() as u32 {
+                for state in StateId::first(model.num_states()) {
                     for row in model.choices().rows(state) {
                         let row = model.rows().row(row);
                         let value: f64 =
-                            row.successors.iter().zip(row.lower).map(|(&s, l)| l * values[s as usize]).sum();
-                        best[state as usize] = best[state as usize].max(value);
+                            row.successors.iter().zip(row.lower).map(|(&s, l)| l * values[s.index()]).sum();
+                        best[state.index()] = best[state.index()].max(value);
                     }
                 }
                 best

@@ -186,7 +186,7 @@ impl Experiment {
         problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary).any(|(cell, _)| {
             let state = enabling.state_of_cell[cell.index()];
             enabling.model.choices().rows(state).any(|row| {
-                let mut truths = self.truths(cell, row as usize);
+                let mut truths = self.truths(cell, row.index());
                 let row = row_of.model.rows().row(row);
                 truths.any(|truth| excludes(problem, row_of, &row, truth))
             })
@@ -203,7 +203,7 @@ impl Experiment {
             let of_cell = |cell: usize| {
                 let state = abstraction.state_of_cell[cell];
                 let row = policy.row(abstraction.model.choices(), state, elapsed)?;
-                let truths = self.truths(CellId(cell as u32), row as usize);
+                let truths = self.truths(CellId(cell as u32), row.index());
                 let worth = |truth: &Vec<f64>| truth.iter().zip(&values).map(|(p, v)| p * v).sum::<f64>();
                 Some(truths.map(worth).fold(f64::INFINITY, f64::min))
             };

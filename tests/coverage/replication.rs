@@ -6,6 +6,7 @@ use dynabs::abstraction::{Abstraction, compile};
 use dynabs::partition::CellId;
 use dynabs::problem::Problem;
 use dynabs::statistics::{lower_bound, upper_bound};
+use imdp::model::StateId;
 use imdp::numeric::to_f64;
 use imdp::solver::{Answer, SolverOptions};
 use std::ops::AddAssign;
@@ -54,7 +55,7 @@ pub fn replicate(layout: Layout, noise: Noise, (samples, beta): (usize, f64), se
     let policy = answer.solution.policy.as_ref().unwrap();
     let real = satisfaction(&problem, &abstraction, policy, &truths);
     let overstated = (real.iter().zip(&abstraction.state_of_cell))
-        .any(|(real, &state)| answer.values.lower[state as usize] > real + ROUNDING);
+        .any(|(real, &state)| answer.values.lower[state.index()] > real + ROUNDING);
     let unseen = abstraction.guarantee.samples().unwrap().unseen_mass;
     let [cells, goal, failed] = violations(&problem, &abstraction, &truths, 0.0);
     let [_, _, without_unseen] = violations(&problem, &abstraction, &truths, unseen);
@@ -78,8 +79,8 @@ fn violations(problem: &Problem, abstraction: &Abstraction, truths: &[Truth], le
         let probabilities = truth.over(&row, problem, abstraction);
         for (i, &state) in row.successors.iter().enumerate() {
             let (family, upper) = match state {
-                0 => (2, row.upper[i] - less),
-                1 => (1, row.upper[i]),
+                StateId(0) => (2, row.upper[i] - less),
+                StateId(1) => (1, row.upper[i]),
                 _ => (0, row.upper[i]),
             };
             let p = probabilities[i];

@@ -81,12 +81,12 @@ impl Truth {
         let mut of_state = vec![0.0; abstraction.model.num_states()];
         for (cell, kind) in problem.labels().iter() {
             if kind != CellKind::Unsafe {
-                of_state[abstraction.state_of_cell[cell.index()] as usize] += self.cells[cell.index()];
+                of_state[abstraction.state_of_cell[cell.index()].index()] += self.cells[cell.index()];
             }
         }
-        let listed: f64 = row.successors.iter().map(|&s| of_state[s as usize]).sum();
+        let listed: f64 = row.successors.iter().map(|&s| of_state[s.index()]).sum();
         of_state[0] = 1.0 - listed;
-        row.successors.iter().map(|&s| of_state[s as usize]).collect()
+        row.successors.iter().map(|&s| of_state[s.index()]).collect()
     }
 }
 
@@ -106,7 +106,7 @@ pub fn satisfaction(
         let of_cell = |cell: usize| {
             let state: StateId = abstraction.state_of_cell[cell];
             let row = policy.row(abstraction.model.choices(), state, elapsed)?;
-            Some(truths[row as usize].cells.iter().zip(&values).map(|(p, v)| p * v).sum())
+            Some(truths[row.index()].cells.iter().zip(&values).map(|(p, v)| p * v).sum())
         };
         let next = (0..values.len()).map(|cell| match kinds[cell] {
             CellKind::Goal => 1.0,

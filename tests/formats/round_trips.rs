@@ -37,28 +37,31 @@ fn raising_exceeds_one(model: &IntervalMdp) -> bool {
 }
 
 /// A choice: its name and its transitions.
-type Choice = (Option<String>, Vec<(u32, f64, f64)>);
+type Choice = (Option<String>, Vec<(StateId, f64, f64)>);
 
 /// All choices of all states, written out, with their names.
 fn expanded(model: &IntervalMdp) -> Vec<Vec<Choice>> {
     let mut choice = 0;
-    let of_state = |state: u32| {
+    let of_state = |state: StateId| {
         let mut of_state = vec![];
-        let mut push = |row: Option<u32>, entries| {
+        let mut push = |row: Option<RowId>, entries| {
             of_state.push((model.actions().name(choice, row).map(|name| name.into_owned()), entries));
             choice += 1;
         };
-        if model.choices().is_absorbing(state) {
+        if model.choices().is_absorbing(StateId(state.0)) {
             push(None, vec![(state, 1.0, 1.0)]);
         }
-        for id in model.choices().rows(state) {
+        for id in model.choices().rows(StateId(state.0)) {
             let row = model.rows().row(id);
             let bounds = row.lower.iter().zip(row.upper);
-            push(Some(id), row.successors.iter().zip(bounds).map(|(&s, (&l, &u))| (s, l, u)).collect());
+            push(
+                Some(RowId(id.0)),
+                row.successors.iter().zip(bounds).map(|(&s, (&l, &u))| (s, l, u)).collect(),
+            );
         }
         of_state
     };
-    (0..model.num_states() as u32).map(of_state).collect()
+    StateId::first(model.num_states()).map(of_state).collect()
 }
 
 /// The model once it has been read from a file: rows are numbered by their first use.

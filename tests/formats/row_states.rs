@@ -79,7 +79,9 @@ fn names_and_labels_stay() {
     assert_eq!(encoded.model.num_states(), 5 + 3);
     assert_eq!(encoded.model.labels().get("row").unwrap().ones().collect::<Vec<_>>(), [5, 6, 7]);
     assert_eq!(encoded.model.labels().get("goal").unwrap().ones().collect::<Vec<_>>(), [1, 4]);
-    assert!(encoded.model.choices().is_deadlock(4) && encoded.model.choices().is_absorbing(1));
+    assert!(
+        encoded.model.choices().is_deadlock(StateId(4)) && encoded.model.choices().is_absorbing(StateId(1))
+    );
     let names: Vec<_> = (0..9).map(|choice| encoded.model.actions().name(choice, None)).collect();
     let names: Vec<_> = names.iter().map(|name| name.as_deref()).collect();
     assert_eq!(names[..6], [Some("a_0"), Some("b"), None, Some("b"), Some("c"), None]);

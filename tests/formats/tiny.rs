@@ -14,16 +14,18 @@ pub fn model() -> IntervalMdp {
     let mut rows = Rows::new();
     for entries in [&[(1, 0.2, 0.5), (2, 0.0, 0.8)][..], &[(2, 1.0, 1.0)], &[(0, 1e-300, 1.0), (4, 0.1, 1.0)]]
     {
-        entries.iter().for_each(|&(successor, lower, upper)| rows.push_entry(successor, lower, upper));
+        entries
+            .iter()
+            .for_each(|&(successor, lower, upper)| rows.push_entry(StateId(successor), lower, upper));
         rows.finish_row();
     }
     let mut choices = ChoicesBuilder::with_capacity(5);
-    choices.push_range(RowRange { first: 0, last: 1 });
+    choices.push_range(RowRange { first: RowId(0), last: RowId(1) });
     choices.finish_state();
     choices.push_absorbing();
-    choices.push_range(RowRange { first: 1, last: 2 });
+    choices.push_range(RowRange { first: RowId(1), last: RowId(2) });
     choices.finish_state();
-    choices.push_range(RowRange { first: 0, last: 0 });
+    choices.push_range(RowRange { first: RowId(0), last: RowId(0) });
     choices.finish_state();
     choices.finish_state();
     let mut labels = Labels::default();

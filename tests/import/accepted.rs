@@ -2,7 +2,7 @@
 
 use imdp::formats::prism::import_with_progress;
 use imdp::formats::{Imported, Place, Warning};
-use imdp::model::{ActionNames, ModelKind, RowRange, VariableValues};
+use imdp::model::{ActionNames, ModelKind, RowId, RowRange, StateId, VariableValues};
 
 use super::{Files, LAB, STA, TRA, assert_refused, import_texts};
 
@@ -12,9 +12,9 @@ fn a_model_is_read() {
     assert_eq!(warnings, []);
     assert_eq!(model.kind(), ModelKind::Imdp);
     assert_eq!((model.size().choices, model.size().transitions, model.size().rows), (3, 4, 1));
-    assert_eq!(model.rows().row(0).successors, [1, 2]);
-    assert_eq!(model.rows().row(0).lower, [0.2, 0.2]);
-    assert!(model.choices().is_absorbing(1) && model.choices().is_absorbing(2));
+    assert_eq!(model.rows().row(RowId(0)).successors, [1, 2].map(StateId));
+    assert_eq!(model.rows().row(RowId(0)).lower, [0.2, 0.2]);
+    assert!(model.choices().is_absorbing(StateId(1)) && model.choices().is_absorbing(StateId(2)));
     let expected = ActionNames::OfChoice {
         names: vec!["a".to_owned(), "b".to_owned()],
         ids: vec![0, 1, ActionNames::UNNAMED],
@@ -52,21 +52,21 @@ fn oddities_are_accepted() {
     let several = import_texts(TRA, None, "0=\"init\" 1=\"deadlock\"\n0: 0 1\n2: 0\n").unwrap().model;
     assert_eq!(several.initial().ones().collect::<Vec<_>>(), [0, 2]);
     let zero = import_texts("2 1 2\n0 0 0 [0,1]\n0 0 1 [0.0,1]\n", None, "0=\"init\"\n0: 0\n").unwrap();
-    assert_eq!(zero.model.rows().row(0).lower, [0.0, 0.0]);
+    assert_eq!(zero.model.rows().row(RowId(0)).lower, [0.0, 0.0]);
 }
 
 #[test]
 fn decimals_decide_sums() {
     let tenths: String = (0..10).map(|state| format!("0 0 {state} 0.1\n")).collect();
     let read = import_texts(&format!("10 1 10\n{tenths}"), None, "0=\"init\"\n0: 0\n").unwrap();
-    assert!(matches!(read.warnings[..], [Warning::Deadlocks { count: 9, first: 1 }]));
+    assert!(matches!(read.warnings[..], [Warning::Deadlocks { count: 9, first: StateId(1) }]));
 
     let tra = "3 3 5\n0 0 0 [0,1]\n0 0 1 [0,1]\n1 0 0 0.5\n1 0 1 0.4999999995\n2 0 2 [1,1]\n";
     let read = import_texts(tra, None, "0=\"init\"\n0: 0\n").unwrap();
     let [warning @ Warning::Widened { count: 1, first }] = &read.warnings[..] else { panic!() };
     assert_eq!(first.place, Place::Text { line: 4, column: 1 });
     assert!(warning.to_string().contains("m.tra:4:1"));
-    let row = read.model.rows().row(1);
+    let row = read.model.rows().row(RowId(1));
     assert_eq!(row.lower, [0.5, 0.4999999995]);
     assert!(row.upper[0] > 0.5 && row.upper[0] + row.upper[1] >= 1.0 && row.upper[1] < 0.500000001);
 }
@@ -84,12 +84,12 @@ fn rows_are_shared() {
     // State 2 stays in one of two choices, so it is no absorbing state. State 3 has no choice.
     tra += &format!("2 0 2 1\n{}2 2 0 [0.10,1]\n2 2 1 [0,1]\n", row(2, 1, "0.3"));
     let Imported { model, warnings, .. } = import_texts(&tra, None, "0=\"init\"\n0: 0\n").unwrap();
-    assert_eq!(warnings, [Warning::Deadlocks { count: 1, first: 3 }]);
+    assert_eq!(warnings, [Warning::Deadlocks { count: 1, first: StateId(3) }]);
     assert_eq!(model.rows().len(), 4);
-    assert_eq!(model.choices().ranges(0), [RowRange { first: 0, last: 2 }]);
-    assert_eq!(model.choices().ranges(0), model.choices().ranges(1));
-    assert_eq!(model.choices().rows(2).collect::<Vec<_>>(), [3, 2, 0]);
-    assert!(model.choices().is_deadlock(3) && !model.choices().is_absorbing(2));
+    assert_eq!(model.choices().ranges(StateId(0)), [RowRange { first: RowId(0), last: RowId(2) }]);
+    assert_eq!(model.choices().ranges(StateId(0)), model.choices().ranges(StateId(1)));
+    assert_eq!(model.choices().rows(StateId(2)).collect::<Vec<_>>(), [3, 2, 0].map(RowId));
+    assert!(model.choices().is_deadlock(StateId(3)) && !model.choices().is_absorbing(StateId(2)));
     assert_eq!(*model.actions(), ActionNames::None);
 }
 
@@ -99,7 +99,7 @@ fn interval_chains_are_read() {
     let model = import_texts(tra, None, "0=\"init\"\n0: 0\n").unwrap().model;
     assert_eq!(model.kind(), ModelKind::Idtmc);
     assert_eq!((model.size().choices, model.size().transitions), (3, 4));
-    assert!(model.choices().is_absorbing(1));
+    assert!(model.choices().is_absorbing(StateId(1)));
 }
 
 #[test]
@@ -115,7 +115,10 @@ fn long_files_are_read_like_short_ones() {
     let lab = "0=\"init\"\n0: 0\n";
     let model = import_texts(&tra, None, lab).unwrap().model;
     assert_eq!(model.size().transitions, 2 * states * width);
-    assert_eq!(model.rows().row(*model.choices().rows(19_999).collect::<Vec<_>>().last().unwrap()).len(), 8);
+    assert_eq!(
+        model.rows().row(*model.choices().rows(StateId(19_999)).collect::<Vec<_>>().last().unwrap()).len(),
+        8
+    );
     let wrong = tra.replacen("\n19000 1 0 ", "\n19000 1 x ", 1);
     assert_refused("long", import_texts(&wrong, None, lab), "m.tra:304010:9", &["`x`"]);
 }
@@ -135,8 +138,8 @@ fn a_choice_may_be_longer_than_a_chunk() {
     (0..width).rev().for_each(|to| tra += &format!("0 0 {to} [0.0,0.00002]\n"));
     tra += "7 0 7 1\n";
     let model = import_texts(&tra, None, "0=\"init\"\n0: 0\n").unwrap().model;
-    assert_eq!(model.rows().row(0).len(), width);
-    assert!(model.choices().is_absorbing(7) && model.choices().is_deadlock(8));
+    assert_eq!(model.rows().row(RowId(0)).len(), width);
+    assert!(model.choices().is_absorbing(StateId(7)) && model.choices().is_deadlock(StateId(8)));
 }
 
 #[test]

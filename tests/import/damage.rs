@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use imdp::formats::{Imported, Warning};
-use imdp::model::{IntervalMdp, StateVariable};
+use imdp::model::{IntervalMdp, StateId, StateVariable};
 use proptest::prelude::*;
 
 use super::{Files, LAB, STA, TRA};
@@ -38,13 +38,13 @@ fn slow_transitions(text: &str) -> Transitions {
 fn transitions_of(model: &IntervalMdp) -> Transitions {
     let mut transitions = Transitions::new();
     for state in 0..model.num_states() as u32 {
-        if model.choices().is_absorbing(state) {
+        if model.choices().is_absorbing(StateId(state)) {
             transitions.insert((state, 0, state), (1.0, 1.0));
         }
-        for (choice, row) in (0..).zip(model.choices().rows(state)) {
+        for (choice, row) in (0..).zip(model.choices().rows(StateId(state))) {
             let row = model.rows().row(row);
             for (i, &successor) in row.successors.iter().enumerate() {
-                transitions.insert((state, choice, successor), (row.lower[i], row.upper[i]));
+                transitions.insert((state, choice, successor.0), (row.lower[i], row.upper[i]));
             }
         }
     }
@@ -89,7 +89,7 @@ fn states_of(model: &IntervalMdp) -> String {
     for state in 0..model.num_states() as u32 {
         let value = |variable: &StateVariable| {
             let mut text = String::new();
-            variable.write_value(state, &mut text).unwrap();
+            variable.write_value(StateId(state), &mut text).unwrap();
             text
         };
         text += &format!("{state}:({})\n", variables.iter().map(value).collect::<Vec<_>>().join(","));

@@ -2,6 +2,7 @@
 
 use super::models::{model, set};
 use super::*;
+use imdp::model::{RowId, StateId};
 
 fn values(solution: &Solution, state: usize) -> (f64, f64) {
     (solution.values.lower[state], solution.values.upper[state])
@@ -148,11 +149,11 @@ fn a_policy_says_what_to_do_after_so_many_steps() {
     let solution = until(&m, &safe, &goal, Some(5), Resolution::Pmaxmin);
     let policy = solution.policy.unwrap();
     assert_eq!(
-        (0..6).map(|k| policy.choice(0, k)).collect::<Vec<_>>(),
+        (0..6).map(|k| policy.choice(StateId(0), k)).collect::<Vec<_>>(),
         [Some(1), Some(1), Some(1), Some(1), Some(0), None]
     );
-    assert_eq!(policy.row(m.choices(), 0, 0), Some(1));
-    assert_eq!(policy.choice(2, 0), None);
+    assert_eq!(policy.row(m.choices(), StateId(0), 0), Some(RowId(1)));
+    assert_eq!(policy.choice(StateId(2), 0), None);
     assert_eq!(solution.iterations, 3);
 }
 

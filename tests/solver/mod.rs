@@ -4,7 +4,7 @@ pub mod models;
 pub mod reference;
 
 use crate::common::certified::certified;
-use imdp::model::{IntervalMdp, StateSet};
+use imdp::model::{IntervalMdp, StateId, StateSet};
 use imdp::numeric::from_dyadic;
 use imdp::property::Resolution;
 use imdp::solver::{Event, Solution, SolverOptions, Status, ValueBounds, solve};
@@ -114,7 +114,8 @@ fn policy_keeps_its_promise(
     solution: &Solution,
 ) {
     let policy = solution.policy.as_ref().unwrap();
-    let rows: Vec<_> = (0..model.num_states() as u32).map(|s| policy.row(model.choices(), s, 0)).collect();
+    let rows: Vec<_> =
+        StateId::first(model.num_states()).map(|s| policy.row(model.choices(), s, 0)).collect();
     let [worst, best, ..] = reference::unbounded_with(model, safe, goal, Some(&rows));
     for s in 0..model.num_states() {
         let (lower, upper) = (solution.values.lower[s], solution.values.upper[s]);

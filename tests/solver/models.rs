@@ -9,7 +9,7 @@ pub type Entries = Vec<(u32, f64, f64)>;
 pub fn model(rows: &[Entries], states: &[Option<Vec<(u32, u32)>>]) -> IntervalMdp {
     let mut list = Rows::new();
     for row in rows {
-        row.iter().for_each(|&(s, l, u)| list.push_entry(s, l, u));
+        row.iter().for_each(|&(s, l, u)| list.push_entry(StateId(s), l, u));
         list.finish_row();
     }
     let mut builder = ChoicesBuilder::with_capacity(states.len());
@@ -17,7 +17,9 @@ pub fn model(rows: &[Entries], states: &[Option<Vec<(u32, u32)>>]) -> IntervalMd
         match state {
             None => builder.push_absorbing(),
             Some(ranges) => {
-                ranges.iter().for_each(|&(first, last)| builder.push_range(RowRange { first, last }));
+                ranges.iter().for_each(|&(first, last)| {
+                    builder.push_range(RowRange { first: RowId(first), last: RowId(last) })
+                });
                 builder.finish_state();
             }
         }

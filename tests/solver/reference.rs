@@ -1,6 +1,6 @@
 //! Exact values by brute force: every policy against every vertex of every row, in rationals.
 
-use imdp::model::{IntervalMdp, StateSet};
+use imdp::model::{IntervalMdp, RowId, StateId, StateSet};
 use imdp::numeric::from_decimal;
 use num_rational::{BigRational, Ratio};
 use num_traits::{One, ToPrimitive, Zero};
@@ -51,7 +51,7 @@ fn vertices(model: &IntervalMdp) -> Vec<Vec<Vec<Exact>>> {
         for order in permutations(row.len()) {
             let p = pour(&lower, &upper, &order);
             let mut wide = vec![Exact::zero(); model.num_states()];
-            row.successors.iter().zip(p).for_each(|(&s, p)| wide[s as usize] = p);
+            row.successors.iter().zip(p).for_each(|(&s, p)| wide[s.index()] = p);
             if !all.contains(&wide) {
                 all.push(wide);
             }
@@ -114,24 +114,28 @@ pub fn unbounded_with(
     model: &IntervalMdp,
     safe: &StateSet,
     goal: &StateSet,
-    policy: Option<&[Option<u32>]>,
+    policy: Option<&[Option<RowId>]>,
 ) -> [Vec<Exact>; 4] {
     let n = model.num_states();
     let vertices = vertices(model);
     let moving: Vec<usize> = (0..n)
-        .filter(|&s| safe.contains(s) && !goal.contains(s) && !model.choices().ranges(s as u32).is_empty())
+        .filter(|&s| {
+            safe.contains(s)
+                && !goal.contains(s)
+                && !model.choices().ranges(StateId::from_index(s)).is_empty()
+        })
         .collect();
-    let options: Vec<Vec<u32>> = moving
+    let options: Vec<Vec<RowId>> = moving
         .iter()
         .map(|&s| match policy {
             Some(policy) => vec![policy[s].unwrap()],
-            None => model.choices().rows(s as u32).collect(),
+            None => model.choices().rows(StateId::from_index(s)).collect(),
         })
         .collect();
     let mut result: Option<[Vec<Exact>; 4]> = None;
     for rows in product(&options) {
         let natures: Vec<Vec<&Vec<Exact>>> =
-            rows.iter().map(|&row| vertices[row as usize].iter().collect()).collect();
+            rows.iter().map(|&row| vertices[row.index()].iter().collect()).collect();
         let (mut low, mut high): (Option<Vec<Exact>>, Option<Vec<Exact>>) = (None, None);
         for picks in product(&natures) {
             let mut chain_rows = vec![None; n];
@@ -191,10 +195,10 @@ pub fn bounded(
     let mut values: Vec<BigRational> =
         (0..n).map(|s| BigRational::from_integer(i64::from(goal.contains(s)).into())).collect();
     for _ in 0..steps {
-        let row_value = |id: u32| {
-            let row = model.rows().row(id);
+        let row_value = |id: RowId| {
+            let row = model.rows().row(RowId(id.0));
             let mut order: Vec<usize> = (0..row.len()).collect();
-            order.sort_by_key(|&i| values[row.successors[i] as usize].clone());
+            order.sort_by_key(|&i| values[row.successors[i].index()].clone());
             if nature_max {
                 order.reverse();
             }
@@ -204,12 +208,12 @@ pub fn bounded(
             for i in order {
                 let share = (bound(row.upper[i]) - bound(row.lower[i])).min(left.clone());
                 left -= &share;
-                sum += (bound(row.lower[i]) + share) * &values[row.successors[i] as usize];
+                sum += (bound(row.lower[i]) + share) * &values[row.successors[i].index()];
             }
             sum
         };
         let state_value = |s: usize| {
-            let ws = model.choices().rows(s as u32).map(row_value);
+            let ws = model.choices().rows(StateId::from_index(s)).map(row_value);
             if policy_max { ws.max() } else { ws.min() }
         };
         let moves = |s: usize| next || (safe.contains(s) && !goal.contains(s));

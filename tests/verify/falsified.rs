@@ -4,7 +4,7 @@ use super::oracle::{Oracle, rational};
 use crate::common::cases::{Case, for_every_case};
 use crate::common::certified::{certified, files};
 use imdp::certificate::{self, Certificate, Evidence, Step};
-use imdp::model::IntervalMdp;
+use imdp::model::{IntervalMdp, StateId};
 use imdp::numeric::{Rational, to_f64_down, to_f64_up};
 use imdp::property::Property;
 use imdp::solver::SolverOptions;
@@ -154,10 +154,11 @@ fn set_bound(step: &mut Step, lower: bool, s: usize, value: f64) {
     set(if lower { &mut step.lower } else { &mut step.upper }, s, value);
 }
 
-fn set<T>(list: &mut Vec<(u32, T)>, s: usize, item: T) {
-    match list.binary_search_by_key(&(s as u32), |entry| entry.0) {
+fn set<T>(list: &mut Vec<(StateId, T)>, s: usize, item: T) {
+    let s = StateId::from_index(s);
+    match list.binary_search_by_key(&s, |entry| entry.0) {
         Ok(at) => list[at].1 = item,
-        Err(at) => list.insert(at, (s as u32, item)),
+        Err(at) => list.insert(at, (s, item)),
     }
 }
 
@@ -176,7 +177,7 @@ fn falsify_inductive(rejected: &mut Rejected, honest: &Certificate, oracle: &Ora
         if down < 1.0 {
             let mut changed = inductive.clone();
             set(&mut changed.lower, s, down.next_up());
-            if !changed.ranks.iter().any(|entry| entry.0 == s as u32) {
+            if !changed.ranks.iter().any(|entry| entry.0 == StateId::from_index(s)) {
                 set(&mut changed.ranks, s, u32::MAX);
             }
             rejected.judge("lower bound above the value", &with(changed), oracle.model, false);
@@ -197,12 +198,12 @@ fn falsify_inductive(rejected: &mut Rejected, honest: &Certificate, oracle: &Ora
         oracle.moving.iter().for_each(|&s| values[s] = 1.0);
     }
     let bounds = if oracle.policy_max { &inductive.lower } else { &inductive.upper };
-    bounds.iter().for_each(|&(s, value)| values[s as usize] = value);
+    bounds.iter().for_each(|&(s, value)| values[s.index()] = value);
     for (at, &(s, choice)) in inductive.choices.iter().enumerate() {
         let count = oracle.model.choices().rows(s).count() as u32;
         for other in (0..count).filter(|&other| other != choice) {
-            let limit = oracle.limit(oracle.policy_max, s as usize, Some(other), &values).unwrap();
-            let bound = rational(values[s as usize]);
+            let limit = oracle.limit(oracle.policy_max, s.index(), Some(other), &values).unwrap();
+            let bound = rational(values[s.index()]);
             if if oracle.policy_max { limit < bound } else { limit > bound } {
                 let mut changed = inductive.clone();
                 changed.choices[at].1 = other;

@@ -4,7 +4,7 @@ use crate::common::abstraction;
 use crate::common::certified::certified;
 use crate::solver::models::{labelled, model, set};
 use imdp::certificate::{CertificateError, read, write};
-use imdp::model::{Row, RowError};
+use imdp::model::{Row, RowError, StateId};
 use imdp::solver::{Answer, SolverOptions};
 use imdp::verify::check;
 use proptest::prelude::*;
@@ -83,6 +83,7 @@ fn rows_that_rounding_left_without_a_distribution() {
     }
     // What the checker would not take for a row is refused beforehand.
     let (lower, upper) = ([above; 3], [0.5; 3]);
-    let row = Row { successors: &[0, 1, 2], lower: &lower, upper: &upper, exact: &[] };
+    let row =
+        Row { successors: &[StateId(0), StateId(1), StateId(2)], lower: &lower, upper: &upper, exact: &[] };
     assert!(matches!(row.validate(), Err(RowError::LowerSum { .. })));
 }

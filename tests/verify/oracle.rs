@@ -1,7 +1,7 @@
 //! Steps of certificates judged by the definitions, slowly and in rationals throughout.
 
 use imdp::certificate::Step;
-use imdp::model::{IntervalMdp, StateSet};
+use imdp::model::{IntervalMdp, RowId, StateId, StateSet};
 use imdp::numeric::{Rational, from_decimal, from_dyadic};
 use imdp::property::{Property, QueryKind};
 use num_traits::{One, Zero};
@@ -26,7 +26,7 @@ pub fn rational(x: f64) -> Rational {
 impl<'a> Oracle<'a> {
     pub fn new(model: &'a IntervalMdp, property: &Property) -> Self {
         let query = property.resolve(model.kind()).unwrap().query(model).unwrap();
-        let has_rows = |s: &usize| model.choices().rows(*s as u32).next().is_some();
+        let has_rows = |s: &usize| model.choices().rows(StateId(*s as u32)).next().is_some();
         let all = (0..model.num_states()).filter(has_rows);
         let (moving, goal, steps) = match query.kind {
             QueryKind::Next { goal } => (all.collect(), goal, Some(1)),
@@ -46,8 +46,8 @@ impl<'a> Oracle<'a> {
 
     /// `opt_p p·V` by the definition: every bound a rational, mass poured in the order of the values.
     pub fn row(&self, id: u32, values: &[f64]) -> Rational {
-        let row = self.model.rows().row(id);
-        let value = |i: usize| rational(values[row.successors[i] as usize]);
+        let row = self.model.rows().row(RowId(id));
+        let value = |i: usize| rational(values[row.successors[i].index()]);
         let mut order: Vec<usize> = (0..row.len()).collect();
         order.sort_by_key(|&i| value(i));
         if self.nature_max {
@@ -68,11 +68,11 @@ impl<'a> Oracle<'a> {
     ///
     /// `None` if the policy has to have a choice here and has none.
     pub fn limit(&self, lower: bool, s: usize, choice: Option<u32>, values: &[f64]) -> Option<Rational> {
-        let rows = || self.model.choices().rows(s as u32);
+        let rows = || self.model.choices().rows(StateId(s as u32));
         if lower == self.policy_max {
-            return Some(self.row(rows().nth(choice? as usize)?, values));
+            return Some(self.row(rows().nth(choice? as usize)?.0, values));
         }
-        let expectations = rows().map(|row| self.row(row, values));
+        let expectations = rows().map(|row| self.row(row.0, values));
         if lower { expectations.min() } else { expectations.max() }
     }
 
@@ -92,9 +92,9 @@ impl<'a> Oracle<'a> {
         let mut table = (vec![None; self.model.num_states()], self.start(), self.start());
         let mut all = vec![table.clone()];
         for step in steps {
-            step.choices.iter().for_each(|&(s, choice)| table.0[s as usize] = Some(choice));
-            step.lower.iter().for_each(|&(s, value)| table.1[s as usize] = value);
-            step.upper.iter().for_each(|&(s, value)| table.2[s as usize] = value);
+            step.choices.iter().for_each(|&(s, choice)| table.0[s.index()] = Some(choice));
+            step.lower.iter().for_each(|&(s, value)| table.1[s.index()] = value);
+            step.upper.iter().for_each(|&(s, value)| table.2[s.index()] = value);
             all.push(table.clone());
         }
         all

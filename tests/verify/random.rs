@@ -73,10 +73,10 @@ proptest! {
                         Rational::new((*exact.numer()).into(), (*exact.denom()).into())
                     };
                     for &(s, lower) in &inductive.lower {
-                        prop_assert!(rational(lower) <= value(s), "{} {}: {:?}", resolution, s, claim);
+                        prop_assert!(rational(lower) <= value(s.0), "{} {}: {:?}", resolution, s, claim);
                     }
                     for &(s, upper) in &inductive.upper {
-                        prop_assert!(value(s) <= rational(upper), "{} {}: {:?}", resolution, s, claim);
+                        prop_assert!(value(s.0) <= rational(upper), "{} {}: {:?}", resolution, s, claim);
                     }
                 }
             }

@@ -168,7 +168,7 @@ impl<'a> Probe<'a> {
         let n = self.center.len();
         let steps = self.between.steps.iter().zip(&self.by_cell);
         for (step, by_cell) in steps {
-            let by_target = &step.by_target[target as usize * n..(target as usize + 1) * n];
+            let by_target = &step.by_target[target.index() * n..(target.index() + 1) * n];
             for (j, (by_target, by_cell)) in by_target.iter().zip(by_cell).enumerate() {
                 let middle = by_target + by_cell;
                 (self.lower[j], self.upper[j]) = (middle + step.lower[j], middle + step.upper[j]);

@@ -244,7 +244,7 @@ fn outcome_states(
         failed.union_with(blocked);
         (of_kind(CellKind::Goal, &[REACHED]), failed)
     } else {
-        (of_kind(CellKind::Goal, &[2]), of_kind(CellKind::Unsafe, &[0, 1]))
+        (of_kind(CellKind::Goal, &[StateId(2)]), of_kind(CellKind::Unsafe, &[StateId(0), StateId(1)]))
     }
 }
 

@@ -107,12 +107,12 @@ impl<'a> Scan<'a> {
     }
 
     /// Fixes the coordinate of dimension `k`; `slack` is what the earlier dimensions have left.
-    fn lattice(&self, axes: &[Vec<f64>], k: usize, base: RowId, slack: &[f64], ranges: &mut Vec<RowRange>) {
+    fn lattice(&self, axes: &[Vec<f64>], k: usize, base: usize, slack: &[f64], ranges: &mut Vec<RowRange>) {
         let axis = &axes[k];
         let Some((first, last)) = self.feasible(axis, k, slack) else { return };
-        let base = base * axis.len() as RowId;
+        let base = base * axis.len();
         if k + 1 == axes.len() {
-            push(ranges, base + first as RowId, base + last as RowId);
+            push(ranges, base + first, base + last);
             return;
         }
         let mut rest = vec![0.0; slack.len()];
@@ -120,7 +120,7 @@ impl<'a> Scan<'a> {
             for ((rest, slack), constraint) in rest.iter_mut().zip(slack).zip(self.constraints) {
                 *rest = slack - constraint.target[k] * x;
             }
-            self.lattice(axes, k + 1, base + i as RowId, &rest, ranges);
+            self.lattice(axes, k + 1, base + i, &rest, ranges);
         }
     }
 
@@ -180,15 +180,15 @@ impl<'a> Scan<'a> {
                 constraint.target.iter().zip(&point).fold(slack, |rest, (alpha, x)| rest - alpha * x) >= 0.0
             });
             if enabled {
-                push(ranges, target as RowId, target as RowId);
+                push(ranges, target, target);
             }
         }
     }
 }
 
-/// Adds a range. Ranges of one cell that continue each other are merged when choices are built.
-fn push(ranges: &mut Vec<RowRange>, first: RowId, last: RowId) {
-    ranges.push(RowRange { first, last });
+/// Adds the rows of a range of targets. Ranges of one cell that continue each other are merged when choices are built.
+fn push(ranges: &mut Vec<RowRange>, first: usize, last: usize) {
+    ranges.push(RowRange { first: RowId::from_index(first), last: RowId::from_index(last) });
 }
 
 #[cfg(test)]

@@ -15,11 +15,11 @@ pub(super) struct StateSpace {
 }
 
 /// In `pac` mode: the state for everything that may have gone wrong.
-pub(super) const FAILED: StateId = 0;
+pub(super) const FAILED: StateId = StateId(0);
 /// In `pac` mode: the state for all goal cells.
-pub(super) const REACHED: StateId = 1;
+pub(super) const REACHED: StateId = StateId(1);
 /// In `reference` mode: the state for everything outside the partition.
-pub(super) const OUTSIDE: StateId = 0;
+pub(super) const OUTSIDE: StateId = StateId(0);
 
 impl StateSpace {
     /// `pac`: state 0 is `failed`, 1 is `reached`, then the ordinary cells.
@@ -32,7 +32,7 @@ impl StateSpace {
                 CellKind::Goal => REACHED,
                 CellKind::Ordinary => {
                     cells.push(cell);
-                    1 + cells.len() as StateId
+                    StateId::from_index(1 + cells.len())
                 }
             })
             .collect();
@@ -42,7 +42,7 @@ impl StateSpace {
     /// `reference`: state 0 is outside, 1 and 2 are unused, then all cells.
     pub(super) fn complete(grid: &Grid) -> Self {
         let cells: Vec<_> = (0..grid.num_cells()).map(CellId).collect();
-        Self { heads: 3, of_cell: cells.iter().map(|cell| cell.0 + 3).collect(), cells }
+        Self { heads: 3, of_cell: cells.iter().map(|cell| StateId(3 + cell.0)).collect(), cells }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -59,18 +59,18 @@ impl StateSpace {
 
     /// The cell of a state, or `None` for a special one.
     pub(super) fn cell(&self, state: StateId) -> Option<CellId> {
-        (state.checked_sub(self.heads)).map(|i| self.cells[i as usize])
+        (state.0.checked_sub(self.heads)).map(|i| self.cells[i as usize])
     }
 
     /// The states that are cells, with their cells, ascending.
     pub(super) fn cells(&self) -> impl Iterator<Item = (StateId, CellId)> + '_ {
-        self.cells.iter().enumerate().map(|(i, &cell)| (self.heads + i as StateId, cell))
+        (self.heads..).map(StateId).zip(self.cells.iter().copied())
     }
 
     /// The states that this function accepts.
     pub(super) fn select(&self, accepts: impl Fn(StateId) -> bool) -> StateSet {
         let mut set = StateSet::with_capacity(self.len());
-        set.extend((0..self.len()).filter(|&state| accepts(state as StateId)));
+        set.extend((0..self.len()).filter(|&state| accepts(StateId::from_index(state))));
         set
     }
 
@@ -89,15 +89,15 @@ impl StateSpace {
     pub(super) fn initial(&self, given: Option<CellId>, labels: &CellLabels) -> StateSet {
         let mut initial = StateSet::with_capacity(self.len());
         match given {
-            Some(cell) => initial.insert(self.of_cell(cell) as usize),
+            Some(cell) => initial.insert(self.of_cell(cell).index()),
             None => {
                 let ordinary = self.cells().filter(|&(_, cell)| labels.kind(cell) == CellKind::Ordinary);
-                initial.extend(ordinary.map(|(state, _)| state as usize));
+                initial.extend(ordinary.map(|(state, _)| state.index()));
             }
         }
         if initial.is_clear() {
             // Every cell is goal or unsafe: the task is over before it starts.
-            initial.extend(self.of_cell.iter().map(|&state| state as usize));
+            initial.extend(self.of_cell.iter().map(|&state| state.index()));
         }
         initial
     }

@@ -8,6 +8,7 @@ use crate::landing::LandingSolution;
 use crate::partition::{CellId, CellKind, CellLookup};
 use crate::problem::InputProblem;
 use crate::system::Feedback;
+use imdp::model::StateId;
 use imdp::numeric::to_f64;
 
 /// The feedback law `u = ū − K (x − c)`: the cell of `x`, with center `c`, and the number `k` of steps elapsed decide on `ū`.
@@ -55,7 +56,7 @@ impl InputController {
             num_inputs: problem.mode().num_inputs(),
             feedback: problem.feedback().clone(),
             centers: grid.axes().iter().map(|axis| axis.centers()).collect(),
-            schedule: Schedule::of_cells((0..cells).map(|cell| solution.policy.changes(cell))),
+            schedule: Schedule::of_cells((0..cells).map(|cell| solution.policy.changes(StateId(cell)))),
             initial: Bound {
                 initial_state: problem.initial_state().map(<[f64]>::to_vec),
                 bound: initial.iter().map(|&cell| lower[cell as usize]).fold(1.0, f64::min),

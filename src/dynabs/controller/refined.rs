@@ -6,6 +6,7 @@ use crate::abstraction::{Abstraction, Targets};
 use crate::guarantee::{Bound, Guarantee};
 use crate::partition::{CellId, CellKind, CellLookup};
 use crate::problem::Problem;
+use imdp::model::StateId;
 use imdp::solver::Answer;
 
 /// A policy of the interval MDP refined to the system: piecewise affine feedback `c(x, k)`.
@@ -77,7 +78,7 @@ impl Controller {
         answer: &Answer,
     ) -> Result<Self, ControllerError> {
         let policy = answer.solution.policy.as_ref().ok_or(ControllerError::NoPolicy)?;
-        let bound = |&state: &u32| answer.values.lower[state as usize];
+        let bound = |state: &StateId| answer.values.lower[state.index()];
         let bounds: Vec<f64> = abstraction.state_of_cell.iter().map(bound).collect();
         let ordinary = problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
         let promised = Bound {

@@ -29,7 +29,7 @@ impl Schedule {
             for &(steps_left, choice) in policy.changes(state) {
                 // States that merge cells have no choices, so every entry is of one cell.
                 if let Some(target) = choices.row_of_choice(state, choice) {
-                    schedule.entries.push(Entry { steps_left, target });
+                    schedule.entries.push(Entry { steps_left, target: target.0 });
                 }
             }
             schedule.starts.push(schedule.entries.len());

@@ -70,7 +70,7 @@ impl<'a> Layers<'a> {
             if axis.noise.is_some() {
                 let mut shape = self.shapes[index].clone();
                 shape[j] = axis.len;
-                return (self.starts[index].0 + flat(&shape, &place)) as StateId;
+                return StateId::from_index(self.starts[index].0 + flat(&shape, &place));
             }
             match axis.cell(axis.first + place[j] as i64) {
                 None => return self.outcome.failed,
@@ -114,7 +114,7 @@ impl<'a> Layers<'a> {
         let mut to = place.to_vec();
         let mut state = |pass: usize| {
             to[j] = pass;
-            (self.starts[stage].1 + flat(&shape, &to)) as StateId
+            StateId::from_index(self.starts[stage].1 + flat(&shape, &to))
         };
         let (mut entries, mut failing) = (vec![], 0.0);
         for (offset, mass) in of_place.single.iter().map(|&(o, p)| (position(o), p)) {

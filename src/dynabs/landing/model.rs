@@ -26,11 +26,11 @@ pub struct LandingModel {
 }
 
 /// Everything that failed.
-const FAILED: StateId = 0;
+const FAILED: StateId = StateId(0);
 /// Where unlisted noise goes.
-const LOST: StateId = 1;
+const LOST: StateId = StateId(1);
 /// All goal cells, if there is a goal.
-const REACHED: StateId = 2;
+const REACHED: StateId = StateId(2);
 
 impl Question<'_> {
     /// The model, with `initial` cells.
@@ -43,7 +43,7 @@ impl Question<'_> {
         for (state, goal) in of_cell.iter_mut().zip(self.goal) {
             *state = if *goal { REACHED } else { FAILED };
         }
-        (heads..).zip(self.open).for_each(|(state, &cell)| of_cell[cell as usize] = state);
+        (heads..).zip(self.open).for_each(|(state, &cell)| of_cell[cell as usize] = StateId(state));
         let cells_end = heads as usize + self.open.len();
         let ranges = Ranges::new(self.images);
         let outcomes = Outcomes { failed: FAILED, lost: LOST, of_cell: &of_cell };
@@ -52,7 +52,8 @@ impl Question<'_> {
 
         let mut rows = Rows::new();
         push_any(&mut rows, vec![FAILED, if self.aim == Aim::Reach { REACHED } else { LOST }]);
-        (0..ranges.places.len()).for_each(|range| push_any(&mut rows, vec![(cells_end + range) as StateId]));
+        (0..ranges.places.len())
+            .for_each(|range| push_any(&mut rows, vec![StateId::from_index(cells_end + range)]));
         ranges.places.iter().for_each(|&(class, at)| {
             push_any(&mut rows, self.sub_cells(&layers, class, at));
         });
@@ -60,8 +61,8 @@ impl Question<'_> {
 
         let mut choices = ChoicesBuilder::with_capacity(states);
         let mut ids = vec![];
-        let one = |row: usize| RowRange { first: row as RowId, last: row as RowId };
-        for head in 0..heads {
+        let one = |row: usize| RowRange { first: RowId::from_index(row), last: RowId::from_index(row) };
+        for head in StateId::first(heads as usize) {
             if head == LOST {
                 choices.push_range(one(0));
                 choices.finish_state();
@@ -129,7 +130,7 @@ impl Question<'_> {
 
 fn set(states: usize, members: impl IntoIterator<Item = StateId>) -> StateSet {
     let mut set = StateSet::with_capacity(states);
-    set.extend(members.into_iter().map(|state| state as usize));
+    set.extend(members.into_iter().map(|state| state.index()));
     set
 }
 

@@ -3,6 +3,7 @@
 use super::images::Images;
 use super::side::{Lower, Upper};
 use super::step::{Best, Landing};
+use imdp::model::StateId;
 use imdp::solver::{Control, NO_CHOICE, Policy, SolverOptions, Status, ValueBounds};
 use serde::{Deserialize, Serialize};
 
@@ -162,7 +163,7 @@ impl Question<'_> {
 struct Choices {
     steps: Option<u64>,
     now: Vec<u32>,
-    changes: Vec<(u32, u64, u32)>,
+    changes: Vec<(StateId, u64, u32)>,
 }
 
 impl Choices {
@@ -175,7 +176,7 @@ impl Choices {
         if *now != input {
             *now = input;
             if self.steps.is_some() {
-                self.changes.push((cell, left, input));
+                self.changes.push((StateId(cell), left, input));
             }
         }
     }

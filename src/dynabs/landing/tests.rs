@@ -191,7 +191,7 @@ fn the_general_solver_gives_the_same_values() {
                     Answer::new(&encoded.model, &property(&game, resolution, micro_steps), &options).unwrap();
                 for (cell, &state) in encoded.of_cell.iter().enumerate() {
                     let (lower, upper, own) =
-                        (answer.values.lower[state as usize], answer.values.upper[state as usize], own[cell]);
+                        (answer.values.lower[state.index()], answer.values.upper[state.index()], own[cell]);
                     let agrees = match (steps, resolution) {
                         (Some(_), _) => own >= lower - 1e-9 && own <= upper + 1e-9,
                         (None, Resolution::Pmaxmin) => own <= upper && own >= lower - 1e-5,

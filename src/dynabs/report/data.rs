@@ -123,7 +123,7 @@ fn ranges(material: &Material<'_>) -> Option<Value> {
     (starts[starts.len() - 1] as usize <= MOST_RANGES).then(|| {
         json!({
             "starts": packed(starts.iter().copied()),
-            "first": packed(all().map(|range| range.first)),
+            "first": packed(all().map(|range| range.first.0)),
             "length": packed(all().map(|range| range.len() as u32)),
         })
     })

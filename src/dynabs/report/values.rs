@@ -37,7 +37,7 @@ impl StepValues {
 }
 
 fn of_cells(run: &Run, values: &[f64]) -> Vec<f32> {
-    run.abstraction.state_of_cell.iter().map(|&state| rounded_down(values[state as usize])).collect()
+    run.abstraction.state_of_cell.iter().map(|&state| rounded_down(values[state.index()])).collect()
 }
 
 /// The greatest single that is at most `x`.

@@ -9,6 +9,7 @@ use crate::model_file::Document;
 use crate::problem::Problem;
 use imdp::formats::prism::RAISED_LOWER_BOUND;
 use imdp::formats::sha256_hex;
+use imdp::model::StateId;
 
 use imdp::property::Probability;
 use serde::{Deserialize, Serialize};
@@ -57,7 +58,7 @@ pub struct Manifest {
     /// The initial state asked for.
     pub initial_state: Option<Vec<f64>>,
     /// Its state in the model.
-    pub initial_model_state: Option<u32>,
+    pub initial_model_state: Option<StateId>,
     /// The lower layer, if there is one.
     pub stabilizer: Option<LayerReport>,
     /// The model of the files `rows.*`, if they are written.

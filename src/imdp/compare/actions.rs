@@ -29,7 +29,7 @@ impl<'a> Actions<'a> {
     pub(super) fn new(model: &'a IntervalMdp) -> Self {
         let choices = model.choices();
         let mut total = 0;
-        let first_choice = (0..model.num_states() as StateId).map(|state| {
+        let first_choice = StateId::first(model.num_states()).map(|state| {
             let first = total;
             total += choices.ranges(state).iter().map(|range| range.len() as u64).sum::<u64>();
             total += u64::from(choices.is_absorbing(state));
@@ -41,7 +41,7 @@ impl<'a> Actions<'a> {
 
     /// The choices of a state: name and row.
     pub(super) fn of_state(&self, state: StateId) -> impl Iterator<Item = (Name<'a>, RowId)> + '_ {
-        let first = self.first_choice[state as usize] as usize;
+        let first = self.first_choice[state.index()] as usize;
         self.model.choices().rows(state).enumerate().map(move |(choice, row)| {
             let name = match self.model.actions() {
                 ActionNames::None => Name::Unnamed,
@@ -62,7 +62,7 @@ impl<'a> Actions<'a> {
         // Rows of compiled models are found without looking at each.
         if let (ActionNames::OfRow, Name::Row(row)) = (self.model.actions(), wanted) {
             let ranges = self.model.choices().ranges(state);
-            return ranges.iter().any(|range| range.rows().contains(&row)).then_some(row);
+            return ranges.iter().any(|range| (range.first..=range.last).contains(&row)).then_some(row);
         }
         let mut choices = self.of_state(state).enumerate();
         let means = |choice: usize, name| name == wanted || (name == Name::Unnamed && Some(choice) == index);

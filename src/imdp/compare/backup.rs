@@ -23,7 +23,7 @@ impl<'a> Backup<'a> {
     /// `opt_p p·V` over the distributions `p` of a row.
     pub(crate) fn row_value(&self, row: RowId, values: &[f64]) -> f64 {
         let row = self.model.rows().row(row);
-        let value = |at: &usize| values[row.successors[*at] as usize];
+        let value = |at: &usize| values[row.successors[*at].index()];
         let mut order: Vec<usize> = (0..row.len()).collect();
         order.sort_by(|a, b| value(a).total_cmp(&value(b)));
         if self.query.resolution.nature_maximises() {
@@ -54,7 +54,7 @@ impl<'a> Backup<'a> {
         decide: impl Fn(StateId, &dyn Fn(RowId) -> f64) -> Option<f64>,
     ) -> Vec<f64> {
         let weights: Vec<f64> =
-            (0..self.model.rows().len() as RowId).map(|row| self.row_value(row, values)).collect();
+            RowId::first(self.model.rows().len()).map(|row| self.row_value(row, values)).collect();
         let next = (0..self.model.num_states()).map(|state| {
             if let QueryKind::Until { safe, goal, .. } = &self.query.kind {
                 if goal.contains(state) {
@@ -63,7 +63,7 @@ impl<'a> Backup<'a> {
                     return 0.0;
                 }
             }
-            decide(state as StateId, &|row| weights[row as usize]).unwrap_or(values[state])
+            decide(StateId::from_index(state), &|row| weights[row.index()]).unwrap_or(values[state])
         });
         next.collect()
     }
@@ -72,7 +72,7 @@ impl<'a> Backup<'a> {
     pub(crate) fn matters(&self, state: StateId) -> bool {
         match &self.query.kind {
             QueryKind::Until { safe, goal, .. } => {
-                safe.contains(state as usize) && !goal.contains(state as usize)
+                safe.contains(state.index()) && !goal.contains(state.index())
             }
             QueryKind::Next { .. } => true,
         }

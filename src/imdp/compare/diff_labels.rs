@@ -16,7 +16,7 @@ pub(super) fn diff_labels(left: &IntervalMdp, right: &IntervalMdp, options: &Dif
         // A label that no state has says nothing, whether it is declared or not; states without choices are deadlocks.
         let said = labels.filter(|(name, set)| !set.is_clear() && name != "label \"init\"");
         let deadlock = model.labels().get("deadlock").is_none().then(|| {
-            let without = |s: &usize| model.choices().is_deadlock(*s as StateId);
+            let without = |s: &usize| model.choices().is_deadlock(StateId::from_index(*s));
             let mut set = StateSet::with_capacity(model.num_states());
             set.extend((0..model.num_states()).filter(without));
             ("label \"deadlock\"".to_owned(), set)

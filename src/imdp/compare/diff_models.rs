@@ -30,7 +30,7 @@ pub(super) fn diff_models(
     let mut intervals = Section::new("intervals", options.most);
     let mut order: Vec<((RowId, RowId), Use<'_>)> = vec![];
     let mut known: HashMap<(RowId, RowId), usize> = HashMap::new();
-    for state in 0..left.num_states() as StateId {
+    for state in StateId::first(left.num_states()) {
         let paired = PairedChoices::new(&left_actions, &right_actions, state);
         choices.compared += 1;
         diff_choices(state, (left, right), &paired, &mut choices);

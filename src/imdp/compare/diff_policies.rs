@@ -73,11 +73,12 @@ fn resolve<'a>(
 ) -> Result<Vec<Disagreement<'a>>, CompareError> {
     let actions = Actions::new(model);
     let row = |side: &str, state: StateId, action: &str| {
-        let known = ((state as usize) < model.num_states()).then(|| actions.row(state, action)).flatten();
-        known.ok_or_else(|| CompareError::Action { side: side.into(), state, action: action.into() })
+        let known = (state.index() < model.num_states()).then(|| actions.row(state, action)).flatten();
+        known.ok_or_else(|| CompareError::Action { side: side.into(), state: state.0, action: action.into() })
     };
     // In a state that only stays there is nothing to choose, whatever it is called.
-    let chooses = |state| state as usize >= model.num_states() || !model.choices().ranges(state).is_empty();
+    let chooses =
+        |state: StateId| state.index() >= model.num_states() || !model.choices().ranges(state).is_empty();
     let resolved = different.filter(|((state, _), ..)| chooses(*state)).map(|((state, step), x, y)| {
         let rows = (row(left, state, x)?, row(right, state, y)?);
         Ok(Disagreement { state, step, actions: (x, y), rows })

@@ -73,7 +73,7 @@ impl Sizes {
 
 impl LabelDigest {
     fn new(set: &StateSet) -> Self {
-        let states: Vec<StateId> = set.ones().map(|state| state as StateId).collect();
+        let states: Vec<StateId> = set.ones().map(StateId::from_index).collect();
         let text: String = states.iter().map(|state| format!("{state} ")).collect();
         Self {
             count: states.len() as u64,
@@ -127,18 +127,18 @@ pub(super) fn hashes(
         .map(|&row| {
             let (row, mut hash) = (model.rows().row(row), Sha256::new());
             for ((successor, &lower), &upper) in row.successors.iter().zip(row.lower).zip(row.upper) {
-                hash.update(successor.to_le_bytes());
+                hash.update(successor.0.to_le_bytes());
                 hash.update(index(lower, upper).to_le_bytes());
             }
             hash.finalize().into()
         })
         .collect();
     let (mut choices, mut all) = (Vec::with_capacity(model.num_states()), Sha256::new());
-    for state in 0..model.num_states() as StateId {
+    for state in StateId::first(model.num_states()) {
         let word = if model.choices().is_absorbing(state) { "stay" } else { "none" };
         let mut hash = Sha256::new();
         for row in model.choices().rows(state) {
-            hash.update(digests[used.index[row as usize] as usize]);
+            hash.update(digests[used.index[row.index()] as usize]);
         }
         let digest: [u8; 32] = hash.finalize().into();
         let empty = model.choices().ranges(state).is_empty();

@@ -39,13 +39,13 @@ impl PolicyFile {
 
 #[cfg(test)]
 mod tests {
-    use super::PolicyFile;
+    use super::{PolicyFile, StateId};
 
     #[test]
     fn both_forms_are_read_and_others_refused() {
         let policy = PolicyFile::parse("3=a_1\n4,0=up\n\n4,1=0\n").unwrap();
-        assert_eq!(policy.actions[&(3, None)], "a_1");
-        assert_eq!(policy.actions[&(4, Some(1))], "0");
+        assert_eq!(policy.actions[&(StateId(3), None)], "a_1");
+        assert_eq!(policy.actions[&(StateId(4), Some(1))], "0");
         for (text, line) in [("3", 1), ("1=a\nx=b", 2), ("1,x=a", 1), ("1=a\n1=b", 2), ("1=", 1)] {
             assert_eq!(PolicyFile::parse(text).unwrap_err().0, line, "{text}");
         }

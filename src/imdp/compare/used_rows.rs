@@ -21,17 +21,16 @@ impl UsedRows {
     pub(super) fn new(model: &IntervalMdp) -> Self {
         let mut used = Self { rows: vec![], first_use: vec![], index: vec![u32::MAX; model.rows().len()] };
         let mut known: HashMap<[u8; 32], u32> = HashMap::new();
-        for state in 0..model.num_states() as StateId {
+        for state in StateId::first(model.num_states()) {
             for (choice, row) in (0..).zip(model.choices().rows(state)) {
-                if used.index[row as usize] != u32::MAX {
+                if used.index[row.index()] != u32::MAX {
                     continue;
                 }
-                used.index[row as usize] =
-                    *known.entry(content(model.rows().row(row))).or_insert_with(|| {
-                        used.rows.push(row);
-                        used.first_use.push((state, choice));
-                        used.rows.len() as u32 - 1
-                    });
+                used.index[row.index()] = *known.entry(content(model.rows().row(row))).or_insert_with(|| {
+                    used.rows.push(row);
+                    used.first_use.push((state, choice));
+                    used.rows.len() as u32 - 1
+                });
             }
         }
         used
@@ -46,7 +45,7 @@ impl UsedRows {
 fn content(row: Row<'_>) -> [u8; 32] {
     let mut hash = Sha256::new();
     for ((successor, lower), upper) in row.successors.iter().zip(row.lower).zip(row.upper) {
-        hash.update(successor.to_le_bytes());
+        hash.update(successor.0.to_le_bytes());
         hash.update(lower.to_le_bytes());
         hash.update(upper.to_le_bytes());
     }

@@ -37,7 +37,7 @@ impl Strategy {
                 Some((state.parse::<StateId>().ok()?, step, choice.parse::<u32>().ok()?))
             };
             let (state, step, choice) = entry().ok_or_else(|| refuse("state=choice or state,step=choice"))?;
-            if state as usize >= model.num_states() || choice >= num_choices(model, state) {
+            if state.index() >= model.num_states() || choice >= num_choices(model, state) {
                 return Err(refuse("a state of the model and the index of one of its choices"));
             }
             choices.insert((state, step), choice);

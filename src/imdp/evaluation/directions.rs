@@ -1,6 +1,6 @@
 //! Who maximises and who minimises, where a property says it of one player only.
 
-use crate::model::{IntervalMdp, ModelKind};
+use crate::model::{IntervalMdp, ModelKind, StateId};
 use crate::property::{Optimum, Property, PropertyError, Question, Resolution};
 
 /// What nature does where a property names only the policy's direction.
@@ -43,8 +43,8 @@ fn other(optimum: Optimum, model: &IntervalMdp, nature: Option<Nature>) -> Optio
     let maximises = match optimum {
         Optimum::Both(_) => return None,
         Optimum::Only => {
-            let has_choice =
-                (0..model.num_states() as u32).any(|state| model.choices().num_choices_of(state) > 1);
+            let has_choice = (0..model.num_states() as u32)
+                .any(|state| model.choices().num_choices_of(StateId(state)) > 1);
             return (is_point(model) && !has_choice).then_some(Resolution::Pmaxmax);
         }
         Optimum::Max => true,

@@ -68,7 +68,7 @@ impl Evaluation {
     /// Bounds on the value in a state; none if it is a formula.
     pub fn bounds(&self, state: StateId) -> Option<(f64, f64)> {
         match &self.values {
-            Values::Numbers(numbers) => Some(numbers.bounds(state as usize)),
+            Values::Numbers(numbers) => Some(numbers.bounds(state.index())),
             Values::Truth(_) => None,
         }
     }
@@ -76,7 +76,7 @@ impl Evaluation {
     /// Whether the formula holds in a state; none if it is a number.
     pub fn verdict(&self, state: StateId) -> Option<Verdict> {
         match &self.values {
-            Values::Truth(truth) => Some(truth.verdict(state as usize)),
+            Values::Truth(truth) => Some(truth.verdict(state.index())),
             Values::Numbers(_) => None,
         }
     }

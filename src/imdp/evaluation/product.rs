@@ -49,7 +49,7 @@ impl Evaluator<'_> {
             solve(&product.model, &Event::Until { safe: &all, goal, steps: None }, resolution, &options)
         };
         let lower = until(&lower_goal)?;
-        let of_starts = |values: &[f64]| product.starts.iter().map(|&state| values[state as usize]).collect();
+        let of_starts = |values: &[f64]| product.starts.iter().map(|&state| values[state.index()]).collect();
         if lower_goal == upper_goal {
             let values = self.note(lower);
             return Ok(ValueBounds { lower: of_starts(&values.lower), upper: of_starts(&values.upper) });
@@ -80,8 +80,8 @@ struct Pairs<'a> {
 impl Pairs<'_> {
     /// The pair that is met when the model moves to `state` while the automaton is in `memory`.
     fn enter(&mut self, state: StateId, memory: u32) -> Result<StateId, EvaluationError> {
-        let memory = self.automaton.step(memory, self.letters[state as usize])?;
-        let next = self.pairs.len() as StateId;
+        let memory = self.automaton.step(memory, self.letters[state.index()])?;
+        let next = StateId::from_index(self.pairs.len());
         let id = *self.ids.entry((state, memory)).or_insert(next);
         if id == next {
             self.pairs.push((state, memory));
@@ -96,7 +96,7 @@ impl Pairs<'_> {
 impl Product {
     fn new(model: &IntervalMdp, automaton: &mut Automaton, letters: &[u64]) -> Result<Self, EvaluationError> {
         let mut pairs = Pairs { automaton, letters, ids: HashMap::new(), pairs: vec![] };
-        let starts = (0..model.num_states() as StateId)
+        let starts = StateId::first(model.num_states())
             .map(|state| pairs.enter(state, 0))
             .collect::<Result<Vec<_>, _>>()?;
         let mut rows = Rows::new();
@@ -118,7 +118,7 @@ impl Product {
                 false => model.choices().rows(state).map(Some).collect(),
             };
             for row in own {
-                let key = (row, if row.is_none() { state } else { 0 }, memory);
+                let key = (row, if row.is_none() { state } else { StateId(0) }, memory);
                 let id = match known.get(&key) {
                     Some(&id) => id,
                     None => {
@@ -144,7 +144,7 @@ impl Product {
         }
         let states = pairs.pairs.len();
         let mut initial = StateSet::with_capacity(states);
-        starts.iter().for_each(|&state| initial.insert(state as usize));
+        starts.iter().for_each(|&state| initial.insert(state.index()));
         let conditions = pairs.automaton.conditions().to_vec();
         let met = |check: usize| {
             let mut set = StateSet::with_capacity(states);

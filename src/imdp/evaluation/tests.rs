@@ -2,7 +2,7 @@
 
 use super::{Evaluation, Nature, Values};
 use crate::formats::prism;
-use crate::model::IntervalMdp;
+use crate::model::{IntervalMdp, StateId};
 use crate::property::{Compound, Definitions, Inquiry, Verdict, parse_inquiry};
 use crate::solver::SolverOptions;
 
@@ -86,7 +86,7 @@ fn numbers_have_their_values() {
         } else {
             format!("{text} + 0*Pmaxmax=? [ X true ]")
         };
-        let (lower, upper) = evaluate(&text).bounds(state).unwrap();
+        let (lower, upper) = evaluate(&text).bounds(StateId(state)).unwrap();
         let close = 2e-6 * value.clamp(1.0, 100.0);
         let holds = if value.is_finite() {
             lower <= value * (1.0 + 1e-15) + 1e-15 && value <= upper + 1e-15 && upper - lower <= close
@@ -113,7 +113,7 @@ fn formulas_hold_where_they_should() {
         let evaluation = evaluate(text);
         let Values::Truth(_) = &evaluation.values else { panic!("{text}") };
         let found: Vec<u32> =
-            (0..7).filter(|&state| evaluation.verdict(state) == Some(Verdict::Holds)).collect();
+            (0..7).filter(|&state| evaluation.verdict(StateId(state)) == Some(Verdict::Holds)).collect();
         assert_eq!(found, states, "{text}");
     }
 }

@@ -9,7 +9,7 @@
 //! one cannot help. For the maximum, from the highest value downwards.
 
 use super::values::{ExactValues, SumOfProducts};
-use crate::model::{End, Row};
+use crate::model::{End, Row, StateId};
 use crate::numeric::{Rational, decimal_parts};
 use num_bigint::{BigInt, BigUint};
 use num_traits::{One, Zero};
@@ -109,7 +109,7 @@ impl ExactRow {
     /// `min_p p·V` or `max_p p·V`.
     pub(crate) fn expectation(
         &self,
-        successors: &[u32],
+        successors: &[StateId],
         values: &ExactValues<'_>,
         nature: Nature,
     ) -> Rational {
@@ -120,7 +120,7 @@ impl ExactRow {
     }
 
     /// The successors to which some distribution that attains `max_p p·V` gives positive probability.
-    pub(crate) fn maximal_support(&self, successors: &[u32], values: &ExactValues<'_>) -> Vec<bool> {
+    pub(crate) fn maximal_support(&self, successors: &[StateId], values: &ExactValues<'_>) -> Vec<bool> {
         match self {
             Self::Small(row) => row.maximal_support(successors, values),
             Self::Big(row) => row.maximal_support(successors, values),
@@ -130,7 +130,7 @@ impl ExactRow {
     /// The least `k` such that every distribution gives successors of a rank below `k` positive probability.
     ///
     /// That is `max(Σ_{rank<k} l, 1 − Σ_{rank≥k} u) > 0`.
-    pub(crate) fn certain_rank(&self, successors: &[u32], rank: impl Fn(u32) -> u32) -> u64 {
+    pub(crate) fn certain_rank(&self, successors: &[StateId], rank: impl Fn(StateId) -> u32) -> u64 {
         match self {
             Self::Small(row) => row.certain_rank(successors, rank),
             Self::Big(row) => row.certain_rank(successors, rank),
@@ -175,7 +175,7 @@ impl<M: Mass> Numerators<M> {
         Some(Self { scale, lower, room, slack })
     }
 
-    fn expectation(&self, successors: &[u32], values: &ExactValues<'_>, nature: Nature) -> Rational {
+    fn expectation(&self, successors: &[StateId], values: &ExactValues<'_>, nature: Nature) -> Rational {
         let mut left = self.slack.clone();
         let mut sum = SumOfProducts::default();
         for i in order(successors, values, nature) {
@@ -189,7 +189,7 @@ impl<M: Mass> Numerators<M> {
         Rational::new_raw(BigInt::from(sum.total()), BigInt::from(values.denominator_times(scale)))
     }
 
-    fn maximal_support(&self, successors: &[u32], values: &ExactValues<'_>) -> Vec<bool> {
+    fn maximal_support(&self, successors: &[StateId], values: &ExactValues<'_>) -> Vec<bool> {
         let mut left = self.slack.clone();
         let mut support = vec![false; successors.len()];
         let order = order(successors, values, Nature::Max);
@@ -206,7 +206,7 @@ impl<M: Mass> Numerators<M> {
         support
     }
 
-    fn certain_rank(&self, successors: &[u32], rank: impl Fn(u32) -> u32) -> u64 {
+    fn certain_rank(&self, successors: &[StateId], rank: impl Fn(StateId) -> u32) -> u64 {
         let mut order: Vec<(u32, usize)> = successors.iter().zip(0..).map(|(&s, i)| (rank(s), i)).collect();
         order.sort_unstable();
         // What can be kept away from the ranks seen so far.
@@ -229,7 +229,7 @@ impl<M: Mass> Numerators<M> {
 }
 
 /// Positions in the order in which nature pours.
-fn order(successors: &[u32], values: &ExactValues<'_>, nature: Nature) -> Vec<usize> {
+fn order(successors: &[StateId], values: &ExactValues<'_>, nature: Nature) -> Vec<usize> {
     let mut order: Vec<usize> = (0..successors.len()).collect();
     let compare = |i: usize, j: usize| values.compare(successors[i], successors[j]);
     match nature {
@@ -250,13 +250,13 @@ mod tests {
     }
 
     fn row(bounds: &[(f64, f64)]) -> Option<ExactRow> {
-        let successors: Vec<u32> = (0..bounds.len() as u32).collect();
+        let successors: Vec<StateId> = StateId::first(bounds.len()).collect();
         let (lower, upper): (Vec<f64>, Vec<f64>) = bounds.iter().copied().unzip();
         ExactRow::new(Row { successors: &successors, lower: &lower, upper: &upper, exact: &[] })
     }
 
     fn expectation(bounds: &[(f64, f64)], values: &[f64], nature: Nature) -> Rational {
-        let successors: Vec<u32> = (0..bounds.len() as u32).collect();
+        let successors: Vec<StateId> = StateId::first(bounds.len()).collect();
         let found = row(bounds).unwrap().expectation(&successors, &exact_values(values), nature);
         Rational::new(found.numer().clone(), found.denom().clone())
     }
@@ -287,7 +287,7 @@ mod tests {
 
     #[test]
     fn supports_of_maxima_share_ties() {
-        let successors = [0, 1, 2, 3];
+        let successors = [0, 1, 2, 3].map(StateId);
         let row = row(&[(0.0, 0.5), (0.0, 0.5), (0.0, 1.0), (0.1, 0.1)]).unwrap();
         assert_eq!(
             row.maximal_support(&successors, &exact_values(&[0.5, 1.0, 0.5, 0.0])),
@@ -303,8 +303,8 @@ mod tests {
     #[test]
     fn ranks_that_nature_cannot_avoid() {
         // 0.4 + 0.6 may stay at ranks 2 and 3; with less room than that it cannot.
-        let successors = [0, 1, 2];
-        let rank = |s: u32| [3, 2, 1][s as usize];
+        let successors = [0, 1, 2].map(StateId);
+        let rank = |s: StateId| [3, 2, 1][s.index()];
         assert_eq!(row(&[(0.0, 0.4), (0.0, 0.6), (0.0, 1.0)]).unwrap().certain_rank(&successors, rank), 3);
         assert_eq!(row(&[(0.0, 0.4), (0.0, 0.5), (0.0, 1.0)]).unwrap().certain_rank(&successors, rank), 2);
         assert_eq!(row(&[(0.0, 0.4), (0.0, 0.6), (0.1, 1.0)]).unwrap().certain_rank(&successors, rank), 2);

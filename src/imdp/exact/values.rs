@@ -56,7 +56,7 @@ impl<'a> ExactValues<'a> {
         let denominator = &odd << shift;
         for (&state, number) in replaced {
             let numerator = number.numer().magnitude() * (&denominator / number.denom().magnitude());
-            if let Some(digits) = digits.chunks_exact_mut(width).nth(state as usize) {
+            if let Some(digits) = digits.chunks_exact_mut(width).nth(state.index()) {
                 put(digits, &numerator);
             }
         }
@@ -73,13 +73,13 @@ impl<'a> ExactValues<'a> {
 
     /// The digits of the value of a state times the denominator.
     pub(crate) fn numerator(&self, state: StateId) -> &[u64] {
-        &self.digits[state as usize * self.width..][..self.width]
+        &self.digits[state.index() * self.width..][..self.width]
     }
 
     /// Compares the values of two states.
     pub(crate) fn compare(&self, a: StateId, b: StateId) -> Ordering {
         match self.mixed {
-            false => self.doubles[a as usize].total_cmp(&self.doubles[b as usize]),
+            false => self.doubles[a.index()].total_cmp(&self.doubles[b.index()]),
             true => self.numerator(a).iter().rev().cmp(self.numerator(b).iter().rev()),
         }
     }
@@ -159,7 +159,7 @@ mod tests {
             let values = ExactValues::with(&xs, &Replaced::new());
             for (i, &x) in xs.iter().enumerate() {
                 let mut sum = SumOfProducts::default();
-                sum.add([1].into_iter(), values.numerator(i as u32));
+                sum.add([1].into_iter(), values.numerator(StateId(i as u32)));
                 let numerator = BigInt::from(sum.total());
                 let denominator = BigInt::from(values.denominator_times(BigUint::one()));
                 prop_assert_eq!(Rational::new(numerator, denominator), from_dyadic(x).unwrap());
@@ -169,16 +169,16 @@ mod tests {
         #[test]
         fn other_numbers_are_exact_too(xs in prop::collection::vec(0.0f64..=1.0, 3), n in 0u32..=30, d in 31u32..60) {
             let fraction = Rational::new(n.into(), d.into());
-            let replaced = Replaced::from([(1, fraction.clone()), (2, from_dyadic(1e-3).unwrap())]);
+            let replaced = Replaced::from([(StateId(1), fraction.clone()), (StateId(2), from_dyadic(1e-3).unwrap())]);
             let values = ExactValues::with(&xs, &replaced);
             let exact = [from_dyadic(xs[0]).unwrap(), fraction, from_dyadic(1e-3).unwrap()];
             for (i, value) in exact.iter().enumerate() {
                 let mut sum = SumOfProducts::default();
-                sum.add([1].into_iter(), values.numerator(i as u32));
+                sum.add([1].into_iter(), values.numerator(StateId(i as u32)));
                 let denominator = BigInt::from(values.denominator_times(BigUint::one()));
                 prop_assert_eq!(&Rational::new(BigInt::from(sum.total()), denominator), value);
                 for (j, other) in exact.iter().enumerate() {
-                    prop_assert_eq!(values.compare(i as u32, j as u32), value.cmp(other));
+                    prop_assert_eq!(values.compare(StateId::from_index(i), StateId::from_index(j)), value.cmp(other));
                 }
             }
         }

@@ -14,7 +14,7 @@ pub struct RowRange {
 impl RowRange {
     /// The number of rows in the range, at least 1.
     pub fn len(self) -> usize {
-        (self.last - self.first) as usize + 1
+        self.last.index() - self.first.index() + 1
     }
 
     /// Never: a range holds at least one row.
@@ -23,8 +23,8 @@ impl RowRange {
     }
 
     /// The row ids, ascending.
-    pub fn rows(self) -> std::ops::RangeInclusive<RowId> {
-        self.first..=self.last
+    pub fn rows(self) -> impl Iterator<Item = RowId> + Clone {
+        (self.first.0..=self.last.0).map(RowId)
     }
 }
 
@@ -61,7 +61,7 @@ impl Choices {
 
     /// The ranges of one state; empty for absorbing states and deadlocks.
     pub fn ranges(&self, state: StateId) -> &[RowRange] {
-        &self.ranges[self.starts[state as usize]..self.starts[state as usize + 1]]
+        &self.ranges[self.starts[state.index()]..self.starts[state.index() + 1]]
     }
 
     /// The number of ranges of all states.
@@ -79,7 +79,7 @@ impl Choices {
         let mut left = choice as usize;
         for range in self.ranges(state) {
             if left < range.len() {
-                return Some(range.first + left as RowId);
+                return Some(RowId(range.first.0 + left as u32));
             }
             left -= range.len();
         }
@@ -91,15 +91,15 @@ impl Choices {
         // Ranges overlap heavily: a difference array, not a loop over choices.
         let mut depth = vec![0i64; rows + 1];
         for range in states.flat_map(|s| self.ranges(s)) {
-            depth[range.first as usize] += 1;
-            depth[range.last as usize + 1] -= 1;
+            depth[range.first.index()] += 1;
+            depth[range.last.index() + 1] -= 1;
         }
         let mut open = 0;
         let used = |row: &RowId| {
-            open += depth[*row as usize];
+            open += depth[row.index()];
             open > 0
         };
-        (0..rows as RowId).filter(used).collect()
+        RowId::first(rows).filter(used).collect()
     }
 
     /// The number of choices of a state: 1 if it is absorbing, 0 if it is a deadlock.
@@ -116,12 +116,12 @@ impl Choices {
             total += self.num_choices_of(state) as u64;
             first
         };
-        (0..self.num_states() as StateId).map(of_state).collect()
+        StateId::first(self.num_states()).map(of_state).collect()
     }
 
     /// Whether the only choice of a state is to stay.
     pub fn is_absorbing(&self, state: StateId) -> bool {
-        self.absorbing.contains(state as usize)
+        self.absorbing.contains(state.index())
     }
 
     /// Whether a state has no choice at all.
@@ -150,7 +150,7 @@ impl ChoicesBuilder {
         choices.num_choices += range.len() as u64;
         let start = choices.starts.last().copied().unwrap_or_default();
         if let Some(previous) = choices.ranges[start..].last_mut()
-            && previous.last.checked_add(1) == Some(range.first)
+            && previous.last.index() + 1 == range.first.index()
         {
             previous.last = range.last;
         } else {
@@ -187,20 +187,23 @@ mod tests {
     #[test]
     fn ranges_merge_within_a_state_only() {
         let mut builder = ChoicesBuilder::with_capacity(3);
-        builder.push_range(RowRange { first: 0, last: 2 });
-        builder.push_range(RowRange { first: 3, last: 3 });
-        builder.push_range(RowRange { first: 5, last: 6 });
+        builder.push_range(RowRange { first: RowId(0), last: RowId(2) });
+        builder.push_range(RowRange { first: RowId(3), last: RowId(3) });
+        builder.push_range(RowRange { first: RowId(5), last: RowId(6) });
         builder.finish_state();
         builder.push_absorbing();
-        builder.push_range(RowRange { first: 7, last: 7 });
+        builder.push_range(RowRange { first: RowId(7), last: RowId(7) });
         builder.finish_state();
         builder.finish_state();
         let choices = builder.finish();
         assert_eq!(choices.num_states(), 4);
         assert_eq!(choices.num_choices(), 8);
-        assert_eq!(choices.ranges(0), [RowRange { first: 0, last: 3 }, RowRange { first: 5, last: 6 }]);
-        assert!(choices.is_absorbing(1) && !choices.is_deadlock(1));
-        assert_eq!(choices.rows(2).collect::<Vec<_>>(), [7]);
-        assert!(choices.is_deadlock(3));
+        assert_eq!(
+            choices.ranges(StateId(0)),
+            [RowRange { first: RowId(0), last: RowId(3) }, RowRange { first: RowId(5), last: RowId(6) }]
+        );
+        assert!(choices.is_absorbing(StateId(1)) && !choices.is_deadlock(StateId(1)));
+        assert_eq!(choices.rows(StateId(2)).collect::<Vec<_>>(), [RowId(7)]);
+        assert!(choices.is_deadlock(StateId(3)));
     }
 }

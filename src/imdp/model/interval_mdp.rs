@@ -176,20 +176,19 @@ impl IntervalMdp {
     /// The first [`ImdpError`] found.
     pub fn new(parts: Parts) -> Result<Self, ImdpError> {
         let states = parts.choices.num_states();
-        for (row, entries) in (0..).zip(parts.rows.iter()) {
+        for (row, entries) in RowId::first(parts.rows.len()).zip(parts.rows.iter()) {
             entries.validate().map_err(|error| ImdpError::Row { row, error })?;
-            if let Some(&successor) = entries.successors.last().filter(|&&s| s as usize >= states) {
+            if let Some(&successor) = entries.successors.last().filter(|&&s| s.index() >= states) {
                 return Err(ImdpError::Successor { row, successor, states });
             }
         }
         let rows = parts.rows.len();
-        for state in 0..states as StateId {
+        for state in StateId::first(states) {
             let found = parts.choices.ranges(state).iter().map(|range| range.len()).sum();
             if parts.kind == ModelKind::Idtmc && found > 1 {
                 return Err(ImdpError::Chain { state, found });
             }
-            if let Some(range) = parts.choices.ranges(state).iter().find(|range| range.last as usize >= rows)
-            {
+            if let Some(range) = parts.choices.ranges(state).iter().find(|range| range.last.index() >= rows) {
                 return Err(ImdpError::Choice { state, row: range.last, rows });
             }
         }
@@ -322,9 +321,9 @@ fn measure(parts: &Parts) -> Size {
         before.push(total);
     }
     let states = parts.choices.num_states();
-    let of_ranges: u64 = (0..states as StateId)
+    let of_ranges: u64 = StateId::first(states)
         .flat_map(|state| parts.choices.ranges(state))
-        .map(|range| before[range.last as usize + 1] - before[range.first as usize])
+        .map(|range| before[range.last.index() + 1] - before[range.first.index()])
         .sum();
     Size {
         states: states as u64,

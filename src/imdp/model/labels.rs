@@ -107,8 +107,8 @@ impl StateVariable {
     /// The value in one state, as PRISM writes it.
     pub fn write_value(&self, state: StateId, out: &mut impl std::fmt::Write) -> std::fmt::Result {
         match &self.values {
-            VariableValues::Int(values) => write!(out, "{}", values[state as usize]),
-            VariableValues::Bool(states) => write!(out, "{}", states.contains(state as usize)),
+            VariableValues::Int(values) => write!(out, "{}", values[state.index()]),
+            VariableValues::Bool(states) => write!(out, "{}", states.contains(state.index())),
         }
     }
 }

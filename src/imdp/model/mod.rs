@@ -6,6 +6,7 @@
 
 mod choices;
 mod exact_bounds;
+mod ids;
 mod interval_mdp;
 mod labels;
 mod memory;
@@ -16,15 +17,10 @@ mod rows;
 pub use choices::{Choices, ChoicesBuilder, RowRange};
 pub use exact_bounds::{End, ExactBound};
 pub use fixedbitset::FixedBitSet as StateSet;
+pub use ids::{RowId, StateId};
 pub use interval_mdp::{ActionNames, ImdpError, IntervalMdp, ModelKind, Parts, Size};
 pub use labels::{Labels, StateVariable, StateVariables, VariableValues};
 pub use memory::{GrowingMemory, MemoryError, MemoryLimit, available_memory, require_memory};
 pub use restrict::restrict;
 pub use rewards::{RewardError, RewardStructure, Rewards};
 pub use rows::{Row, RowError, Rows};
-
-/// A state of an interval MDP, numbered from 0.
-pub type StateId = u32;
-
-/// A row of an interval MDP, numbered from 0.
-pub type RowId = u32;

@@ -12,7 +12,7 @@ use super::{ActionNames, ChoicesBuilder, ImdpError, IntervalMdp, Parts, RowId, R
 /// Those of [`IntervalMdp::new`]; none, if `model` is an interval MDP.
 pub fn restrict(model: &IntervalMdp, keeps: impl Fn(StateId, u32) -> bool) -> Result<IntervalMdp, ImdpError> {
     let keeps = &keeps;
-    let states = || 0..model.num_states() as StateId;
+    let states = || StateId::first(model.num_states());
     let kept = |state| {
         let choices = (0..).zip(model.choices().rows(state));
         choices.filter(move |(choice, _)| keeps(state, *choice))
@@ -20,10 +20,10 @@ pub fn restrict(model: &IntervalMdp, keeps: impl Fn(StateId, u32) -> bool) -> Re
     let kept = &kept;
 
     let mut renumbered = vec![UNUSED; model.rows().len()];
-    states().flat_map(kept).for_each(|(_, row)| renumbered[row as usize] = 0);
+    states().flat_map(kept).for_each(|(_, row)| renumbered[row.index()] = RowId(0));
     let mut rows = Rows::new();
     for (id, new) in renumbered.iter_mut().enumerate().filter(|(_, new)| **new != UNUSED) {
-        *new = rows.push_row(model.rows().row(id as RowId));
+        *new = rows.push_row(model.rows().row(RowId::from_index(id)));
     }
 
     let mut choices = ChoicesBuilder::with_capacity(model.num_states());
@@ -33,7 +33,7 @@ pub fn restrict(model: &IntervalMdp, keeps: impl Fn(StateId, u32) -> bool) -> Re
             continue;
         }
         for (_, row) in kept(state) {
-            let row = renumbered[row as usize];
+            let row = renumbered[row.index()];
             choices.push_range(RowRange { first: row, last: row });
         }
         choices.finish_state();
@@ -59,15 +59,15 @@ fn names<K: Iterator<Item = (u32, RowId)>>(
     renumbered: &[RowId],
 ) -> ActionNames {
     let absorbing = |state| model.choices().is_absorbing(state);
-    let states = 0..model.num_states() as StateId;
+    let states = StateId::first(model.num_states());
     match model.actions() {
         ActionNames::None => ActionNames::None,
         ActionNames::OfRow => {
             let used = (0..).zip(renumbered).filter(|(_, new)| **new != UNUSED);
-            let names = used.map(|(id, _): (RowId, _)| format!("a_{id}")).collect();
+            let names = used.map(|(id, _): (u32, _)| format!("a_{id}")).collect();
             let of_state = |state| {
                 let loops = absorbing(state).then_some(ActionNames::UNNAMED);
-                loops.into_iter().chain(kept(state).map(|(_, row)| renumbered[row as usize]))
+                loops.into_iter().chain(kept(state).map(|(_, row)| renumbered[row.index()].0))
             };
             ActionNames::OfChoice { names, ids: states.flat_map(of_state).collect() }
         }
@@ -97,14 +97,14 @@ mod tests {
     fn model(actions: ActionNames) -> IntervalMdp {
         let mut rows = Rows::new();
         for successor in 0..3 {
-            rows.push_entry(successor, 1.0, 1.0);
+            rows.push_entry(StateId(successor), 1.0, 1.0);
             rows.finish_row();
         }
         let mut choices = ChoicesBuilder::with_capacity(3);
-        choices.push_range(RowRange { first: 0, last: 2 });
+        choices.push_range(RowRange { first: RowId(0), last: RowId(2) });
         choices.finish_state();
         choices.push_absorbing();
-        choices.push_range(RowRange { first: 1, last: 1 });
+        choices.push_range(RowRange { first: RowId(1), last: RowId(1) });
         choices.finish_state();
         let mut initial = StateSet::with_capacity(3);
         initial.insert(0);
@@ -122,11 +122,12 @@ mod tests {
 
     #[test]
     fn rows_are_renumbered_and_names_are_not() {
-        let small = restrict(&model(ActionNames::OfRow), |state, choice| state != 0 || choice != 0).unwrap();
+        let small =
+            restrict(&model(ActionNames::OfRow), |state, choice| state != StateId(0) || choice != 0).unwrap();
         assert_eq!(small.rows().len(), 2);
-        assert_eq!(small.rows().row(0).successors, [1]);
-        assert_eq!(small.choices().ranges(0), [RowRange { first: 0, last: 1 }]);
-        assert!(small.choices().is_absorbing(1));
+        assert_eq!(small.rows().row(RowId(0)).successors, [StateId(1)]);
+        assert_eq!(small.choices().ranges(StateId(0)), [RowRange { first: RowId(0), last: RowId(1) }]);
+        assert!(small.choices().is_absorbing(StateId(1)));
         let names = vec!["a_1".to_owned(), "a_2".to_owned()];
         let ids = vec![0, 1, ActionNames::UNNAMED, 0];
         assert_eq!(*small.actions(), ActionNames::OfChoice { names, ids });
@@ -136,9 +137,9 @@ mod tests {
     fn choices_keep_their_own_names_and_states_may_lose_all() {
         let names: Vec<String> = ["left", "right", "stay"].map(String::from).to_vec();
         let all = model(ActionNames::OfChoice { names: names.clone(), ids: vec![0, 1, 0, 2, 1] });
-        let small = restrict(&all, |state, choice| (state, choice) == (0, 2)).unwrap();
+        let small = restrict(&all, |state, choice| (state, choice) == (StateId(0), 2)).unwrap();
         assert_eq!(*small.actions(), ActionNames::OfChoice { names, ids: vec![0, 2] });
-        assert!(small.choices().is_deadlock(2));
+        assert!(small.choices().is_deadlock(StateId(2)));
         assert_eq!((small.rows().len(), small.size().transitions), (1, 2));
     }
 }

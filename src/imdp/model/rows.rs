@@ -197,7 +197,7 @@ impl Rows {
     /// Ends the row under construction and returns its id.
     pub fn finish_row(&mut self) -> RowId {
         self.starts.push(self.successors.len());
-        let id = (self.starts.len() - 2) as RowId;
+        let id = RowId::from_index(self.starts.len() - 2);
         if !self.pending.is_empty() {
             self.pending.shrink_to_fit();
             self.exact.insert(id, std::mem::take(&mut self.pending));
@@ -242,8 +242,8 @@ impl Rows {
     /// Appends the rows of `other`, renumbered to follow these.
     pub fn append(&mut self, other: &Self) {
         let shift = self.successors.len();
-        let first = self.len() as RowId;
-        self.exact.extend(other.exact.iter().map(|(id, bounds)| (first + id, bounds.clone())));
+        let first = self.len() as u32;
+        self.exact.extend(other.exact.iter().map(|(id, bounds)| (RowId(first + id.0), bounds.clone())));
         self.starts.extend(other.starts[1..].iter().map(|start| start + shift));
         self.successors.extend_from_slice(&other.successors);
         self.lower.extend_from_slice(&other.lower);
@@ -267,7 +267,7 @@ impl Rows {
 
     /// The row with this id.
     pub fn row(&self, id: RowId) -> Row<'_> {
-        let range = self.starts[id as usize]..self.starts[id as usize + 1];
+        let range = self.starts[id.index()]..self.starts[id.index() + 1];
         Row {
             successors: &self.successors[range.clone()],
             lower: &self.lower[range.clone()],
@@ -283,12 +283,12 @@ impl Rows {
 
     /// The number of entries of a row.
     pub fn row_len(&self, id: RowId) -> usize {
-        self.starts[id as usize + 1] - self.starts[id as usize]
+        self.starts[id.index() + 1] - self.starts[id.index()]
     }
 
     /// All rows, by id.
     pub fn iter(&self) -> impl Iterator<Item = Row<'_>> {
-        (0..self.len()).map(|id| self.row(id as RowId))
+        (0..self.len()).map(|id| self.row(RowId::from_index(id)))
     }
 }
 
@@ -313,21 +313,33 @@ mod tests {
 
     #[test]
     fn rows_must_admit_a_distribution() {
-        assert_eq!(check(&[(0, 0.0, 0.5), (3, 0.5, 1.0)]), Ok(()));
+        assert_eq!(check(&[(StateId(0), 0.0, 0.5), (StateId(3), 0.5, 1.0)]), Ok(()));
         assert_eq!(check(&[]), Err(RowError::Empty));
-        assert_eq!(check(&[(3, 0.5, 1.0), (3, 0.0, 0.5)]), Err(RowError::Order { successor: 3 }));
-        assert!(matches!(check(&[(0, 0.6, 0.5), (1, 0.0, 1.0)]), Err(RowError::Interval { .. })));
-        assert!(matches!(check(&[(0, 0.0, f64::NAN)]), Err(RowError::Interval { .. })));
-        assert!(matches!(check(&[(0, 0.6, 1.0), (1, 0.5, 1.0)]), Err(RowError::LowerSum { .. })));
-        assert!(matches!(check(&[(0, 0.0, 0.6), (1, 0.0, 0.3)]), Err(RowError::UpperSum { .. })));
+        assert_eq!(
+            check(&[(StateId(3), 0.5, 1.0), (StateId(3), 0.0, 0.5)]),
+            Err(RowError::Order { successor: StateId(3) })
+        );
+        assert!(matches!(
+            check(&[(StateId(0), 0.6, 0.5), (StateId(1), 0.0, 1.0)]),
+            Err(RowError::Interval { .. })
+        ));
+        assert!(matches!(check(&[(StateId(0), 0.0, f64::NAN)]), Err(RowError::Interval { .. })));
+        assert!(matches!(
+            check(&[(StateId(0), 0.6, 1.0), (StateId(1), 0.5, 1.0)]),
+            Err(RowError::LowerSum { .. })
+        ));
+        assert!(matches!(
+            check(&[(StateId(0), 0.0, 0.6), (StateId(1), 0.0, 0.3)]),
+            Err(RowError::UpperSum { .. })
+        ));
     }
 
     #[test]
     fn sums_are_those_of_the_decimals() {
         // Ten times the double nearest to 0.1 is above 1, ten times the decimal is not.
-        let tenths: Vec<_> = (0..10).map(|s| (s, 0.1, 0.1)).collect();
+        let tenths: Vec<_> = (0..10).map(|s| (StateId(s), 0.1, 0.1)).collect();
         assert_eq!(check(&tenths), Ok(()));
-        let more: Vec<_> = (0..10).map(|s| (s, 0.1 + 1e-15, 0.2)).collect();
+        let more: Vec<_> = (0..10).map(|s| (StateId(s), 0.1 + 1e-15, 0.2)).collect();
         assert!(matches!(check(&more), Err(RowError::LowerSum { .. })));
     }
 }

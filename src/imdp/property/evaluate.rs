@@ -71,7 +71,7 @@ fn label(name: &str, model: &IntervalMdp) -> Result<StateSet, PropertyError> {
     }
     if name == "deadlock" {
         let mut states = no_states(model);
-        let is_deadlock = |state: &usize| model.choices().is_deadlock(*state as StateId);
+        let is_deadlock = |state: &usize| model.choices().is_deadlock(StateId::from_index(*state));
         states.extend((0..model.num_states()).filter(is_deadlock));
         return Ok(states);
     }

@@ -106,18 +106,18 @@ impl Numbers<'_> {
                 if left <= before || left > most {
                     return wrong(state, format!("{left} steps left"), "ascending numbers up to the horizon");
                 }
-                if model.choices().row_of_choice(state as StateId, choice).is_none() {
+                if model.choices().row_of_choice(StateId::from_index(state), choice).is_none() {
                     return wrong(state, format!("choice {choice}"), "a choice of the state");
                 }
                 before = left;
-                changes.push((state as StateId, left, choice));
+                changes.push((StateId::from_index(state), left, choice));
             }
         }
         Ok(match header.horizon {
             Some(horizon) => Policy::time_varying(horizon, header.states, &changes),
             None => {
                 let mut choices = vec![NO_CHOICE; header.states];
-                changes.iter().for_each(|&(state, _, choice)| choices[state as usize] = choice);
+                changes.iter().for_each(|&(state, _, choice)| choices[state.index()] = choice);
                 Policy::stationary(&choices)
             }
         })

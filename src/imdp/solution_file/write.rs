@@ -39,7 +39,7 @@ fn numbers(values: &[f64], out: &mut impl Write) -> io::Result<()> {
 }
 
 fn changes(policy: &Policy, states: usize, out: &mut impl Write) -> io::Result<()> {
-    let states = 0..states as StateId;
+    let states = StateId::first(states);
     states.clone().try_for_each(|s| out.write_all(&(policy.changes(s).len() as u32).to_le_bytes()))?;
     for (left, choice) in states.flat_map(|s| policy.changes(s)) {
         out.write_all(&left.to_le_bytes())?;

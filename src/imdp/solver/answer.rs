@@ -71,7 +71,8 @@ impl Answer {
         let lower = initial().map(|s| values.lower[s]).fold(1.0, f64::min);
         let upper = initial().map(|s| values.upper[s]).fold(0.0, f64::max);
         let mut answer = Self { objective, query, solution, values, lower, upper, verdict: None };
-        let verdicts: Option<Vec<Verdict>> = initial().map(|s| answer.verdict_of(s as StateId)).collect();
+        let verdicts: Option<Vec<Verdict>> =
+            initial().map(|s| answer.verdict_of(StateId::from_index(s))).collect();
         answer.verdict = verdicts.map(Verdict::in_all);
         answer
     }
@@ -97,7 +98,7 @@ impl Answer {
 
     /// Whether the threshold holds in one state; `None` if there is no threshold.
     pub fn verdict_of(&self, state: StateId) -> Option<Verdict> {
-        let bounds = (self.values.lower[state as usize], self.values.upper[state as usize]);
+        let bounds = (self.values.lower[state.index()], self.values.upper[state.index()]);
         self.objective.threshold.as_ref().map(|threshold| threshold.decide(bounds.0, bounds.1))
     }
 }

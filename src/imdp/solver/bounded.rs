@@ -22,10 +22,9 @@ pub(super) fn until(
     options: &SolverOptions<'_>,
 ) -> Result<Solution, SolveError> {
     let choices = model.choices();
-    let moving = |&s: &StateId| {
-        safe.contains(s as usize) && !goal.contains(s as usize) && !choices.ranges(s).is_empty()
-    };
-    let states: Vec<StateId> = (0..model.num_states() as StateId).filter(moving).collect();
+    let moving =
+        |&s: &StateId| safe.contains(s.index()) && !goal.contains(s.index()) && !choices.ranges(s).is_empty();
+    let states: Vec<StateId> = StateId::first(model.num_states()).filter(moving).collect();
     let mut iteration = Iteration::new(model, players, states, goal, options);
     let mut control = Control::new(options);
     let mut status = Status::HorizonReached;
@@ -54,7 +53,7 @@ pub(super) fn next(
     options: &SolverOptions<'_>,
 ) -> Result<Solution, SolveError> {
     let moving = |&s: &StateId| !model.choices().ranges(s).is_empty();
-    let states: Vec<StateId> = (0..model.num_states() as StateId).filter(moving).collect();
+    let states: Vec<StateId> = StateId::first(model.num_states()).filter(moving).collect();
     let mut iteration = Iteration::new(model, players, states, goal, options);
     // `X` is no `U<=1`: a goal state may be left at once.
     iteration.monotone = false;
@@ -143,7 +142,7 @@ impl<'a> Iteration<'a> {
         self.sweep.evaluate_rows(&self.upper, Bound::Upper, &mut self.upper_rows);
         self.sweep.evaluate_states(&self.lower_rows, &mut self.results);
         for (i, (&s, &value)) in self.sweep.states.iter().zip(&self.results).enumerate() {
-            let old = &mut self.lower[s as usize];
+            let old = &mut self.lower[s.index()];
             self.raised[i] = value > *old;
             // The exact values do not decrease, so a decrease is rounding only.
             let value = if self.monotone { value.max(*old) } else { value };
@@ -157,7 +156,7 @@ impl<'a> Iteration<'a> {
         }
         self.sweep.evaluate_states(&self.upper_rows, &mut self.results);
         for (&s, &value) in self.sweep.states.iter().zip(&self.results) {
-            let old = &mut self.upper[s as usize];
+            let old = &mut self.upper[s.index()];
             if value != *old {
                 changed = true;
                 *old = value;
@@ -165,7 +164,7 @@ impl<'a> Iteration<'a> {
                     recorder.upper(s, value);
                 }
             }
-            self.gap = self.gap.max(value - self.lower[s as usize]);
+            self.gap = self.gap.max(value - self.lower[s.index()]);
         }
         if let Some(recorder) = recorder {
             recorder.end();
@@ -184,15 +183,15 @@ impl<'a> Iteration<'a> {
         let table = if optimum == Direction::Max { &self.lower_rows } else { &self.upper_rows };
         let (choices, weights) = (self.model.choices(), table.values());
         for (&s, &raised) in self.sweep.states.iter().zip(&self.raised) {
-            let now = &mut current[s as usize];
+            let now = &mut current[s.index()];
             if optimum == Direction::Max && !raised && *now != NO_CHOICE {
                 continue;
             }
             let best = table.best(choices.ranges(s));
             let keep = choices
                 .row_of_choice(s, *now)
-                .is_some_and(|row| !optimum.prefers(best, weights[row as usize]));
-            if !keep && let Some(choice) = first_choice(choices, s, |row| weights[row as usize] == best) {
+                .is_some_and(|row| !optimum.prefers(best, weights[row.index()]));
+            if !keep && let Some(choice) = first_choice(choices, s, |row| weights[row.index()] == best) {
                 *now = choice;
                 self.changes.push((s, left, choice));
             }
@@ -202,7 +201,7 @@ impl<'a> Iteration<'a> {
     /// Replaces the upper bounds, which do not hold for further steps, by 1.
     fn give_up_upper(&mut self) {
         for &s in &self.sweep.states {
-            self.upper[s as usize] = 1.0;
+            self.upper[s.index()] = 1.0;
         }
         if let Some(recorder) = &mut self.recorder {
             recorder.give_up_upper(&self.sweep.states);

@@ -64,7 +64,7 @@ impl<'s, 'a> Component<'s, 'a> {
         shared.upper_rows.prepare(shared.model.choices(), &states);
         let change = vec![0.0; states.len()];
         let sweep = Sweep::new(shared.model, shared.players, states, rows);
-        rows.iter().for_each(|&row| shared.own_rows.insert(row as usize));
+        rows.iter().for_each(|&row| shared.own_rows.insert(row.index()));
         Self { shared, sweep, change, leap: 0.0, results: vec![] }
     }
 
@@ -130,20 +130,19 @@ impl<'s, 'a> Component<'s, 'a> {
         for row in self.sweep.rows() {
             let row = shared.model.rows().row(row);
             let possible = row.successors.iter().zip(row.upper).filter(|(s, u)| **u > 0.0 && !inside(s));
-            gap = possible
-                .map(|(&s, _)| shared.upper[s as usize] - shared.lower[s as usize])
-                .fold(gap, f64::max);
+            gap =
+                possible.map(|(&s, _)| shared.upper[s.index()] - shared.lower[s.index()]).fold(gap, f64::max);
         }
         let rows = self.sweep.states.iter().flat_map(|&s| shared.model.choices().rows(s));
-        for row in rows.filter(|&row| !shared.own_rows.contains(row as usize)) {
-            let row = row as usize;
+        for row in rows.filter(|&row| !shared.own_rows.contains(row.index())) {
+            let row = row.index();
             gap = gap.max(shared.upper_rows.values()[row] - shared.lower_rows.values()[row]);
         }
         gap
     }
 
     fn gap(&self) -> f64 {
-        let gap = |&s: &StateId| self.shared.upper[s as usize] - self.shared.lower[s as usize];
+        let gap = |&s: &StateId| self.shared.upper[s.index()] - self.shared.lower[s.index()];
         self.sweep.states.iter().map(gap).fold(0.0, f64::max)
     }
 
@@ -154,11 +153,11 @@ impl<'s, 'a> Component<'s, 'a> {
         self.sweep.evaluate_states(&shared.lower_rows, &mut self.results);
         let mut largest: f64 = 0.0;
         for (i, &s) in self.sweep.states.iter().enumerate() {
-            let change = (self.results[i] - shared.lower[s as usize]).max(0.0);
+            let change = (self.results[i] - shared.lower[s.index()]).max(0.0);
             self.change[i] = change;
             largest = largest.max(change);
             if change > 0.0 {
-                shared.lower[s as usize] = self.results[i];
+                shared.lower[s.index()] = self.results[i];
                 if shared.maximises_for_policy() && !shared.keeps_choice(s, self.results[i]) {
                     shared.choose(s);
                 }
@@ -174,14 +173,14 @@ impl<'s, 'a> Component<'s, 'a> {
     /// raised by `(T^k(C) − C)/k`. Means start anew at every power of two, to forget a bad beginning.
     pub(super) fn guess(&mut self, behind: f64, margin: f64, rounds: u64) -> bool {
         let states = self.sweep.states.clone();
-        let raised = |&s: &StateId| (self.shared.lower[s as usize] + behind + margin).min(1.0);
+        let raised = |&s: &StateId| (self.shared.lower[s.index()] + behind + margin).min(1.0);
         let mut iterate: Vec<f64> = states.iter().map(raised).collect();
-        let old: Vec<f64> = states.iter().map(|&s| self.shared.upper[s as usize]).collect();
+        let old: Vec<f64> = states.iter().map(|&s| self.shared.upper[s.index()]).collect();
         if self.is_inductive(&iterate, &LevelSets::default()) {
             self.accept(&old);
             return true;
         }
-        states.iter().zip(&old).for_each(|(&s, &u)| self.shared.upper[s as usize] = u);
+        states.iter().zip(&old).for_each(|(&s, &u)| self.shared.upper[s.index()] = u);
         let levels = levels(self);
         levels.raise(&mut iterate);
         let (mut sum, mut count) = (vec![0.0; states.len()], 0.0);
@@ -205,7 +204,7 @@ impl<'s, 'a> Component<'s, 'a> {
             }
             iterate.iter_mut().zip(&self.results).for_each(|(value, new)| *value = new.min(1.0));
         }
-        states.iter().zip(&old).for_each(|(&s, &u)| self.shared.upper[s as usize] = u);
+        states.iter().zip(&old).for_each(|(&s, &u)| self.shared.upper[s.index()] = u);
         false
     }
 
@@ -239,7 +238,7 @@ impl<'s, 'a> Component<'s, 'a> {
     fn is_inductive(&mut self, candidate: &[f64], levels: &LevelSets) -> bool {
         let shared = &mut *self.shared;
         let states = &self.sweep.states;
-        states.iter().zip(candidate).for_each(|(&s, &u)| shared.upper[s as usize] = u);
+        states.iter().zip(candidate).for_each(|(&s, &u)| shared.upper[s.index()] = u);
         self.sweep.evaluate_rows(&shared.upper, Bound::Upper, &mut shared.upper_rows);
         if levels.cap(candidate, shared.upper_rows.values_mut()) {
             shared.upper_rows.rebuild();
@@ -256,7 +255,7 @@ impl<'s, 'a> Component<'s, 'a> {
             if self.results[i] < old[i] && shared.minimises_for_policy() {
                 shared.choose(s);
             }
-            shared.upper[s as usize] = self.results[i].min(old[i]).max(shared.lower[s as usize]);
+            shared.upper[s.index()] = self.results[i].min(old[i]).max(shared.lower[s.index()]);
         }
     }
 
@@ -267,6 +266,6 @@ impl<'s, 'a> Component<'s, 'a> {
         self.sweep.evaluate_rows(&shared.upper, Bound::Upper, &mut shared.upper_rows);
         shared.lower_rows.reset();
         shared.upper_rows.reset();
-        self.sweep.rows().for_each(|row| shared.own_rows.set(row as usize, false));
+        self.sweep.rows().for_each(|row| shared.own_rows.set(row.index(), false));
     }
 }

@@ -27,8 +27,8 @@ pub fn solve_delayed(
     let plain = SolverOptions { policy: false, evidence: false, ..*options };
     let mut solution = solve(model, &Event::Until { safe, goal, steps }, resolution, &plain)?;
     let players = Players::from(resolution);
-    let moves = |&s: &StateId| safe.contains(s as usize) && !model.choices().ranges(s).is_empty();
-    let states: Vec<StateId> = (0..model.num_states() as StateId).filter(moves).collect();
+    let moves = |&s: &StateId| safe.contains(s.index()) && !model.choices().ranges(s).is_empty();
+    let states: Vec<StateId> = StateId::first(model.num_states()).filter(moves).collect();
     let mut table = RangeOptimum::new(players.policy, model.rows().len());
     table.prepare(model.choices(), &states);
     let rows = model.choices().used_rows(model.rows().len(), states.iter().copied());
@@ -45,14 +45,14 @@ pub fn solve_delayed(
     for _ in 0..first {
         if let Some(reason) = control.stop() {
             solution.status = reason;
-            let open = sweep.states.iter().map(|&s| s as usize);
+            let open = sweep.states.iter().map(|&s| s.index());
             open.for_each(|state| (lower[state], upper[state]) = (0.0, 1.0));
             return Ok(solution);
         }
         for (values, side) in [(&mut *lower, Bound::Lower), (&mut *upper, Bound::Upper)] {
             sweep.evaluate_rows(values, side, &mut table);
             sweep.evaluate_states(&table, &mut results);
-            sweep.states.iter().zip(&results).for_each(|(&s, &value)| values[s as usize] = value);
+            sweep.states.iter().zip(&results).for_each(|(&s, &value)| values[s.index()] = value);
         }
         control.done(0.0);
         solution.iterations += 1;

@@ -87,5 +87,5 @@ pub(super) fn unlike<T: Copy + PartialEq>(
     states: impl Iterator<Item = usize>,
     usual: T,
 ) -> Vec<(StateId, T)> {
-    states.filter(|&s| table[s] != usual).map(|s| (s as StateId, table[s])).collect()
+    states.filter(|&s| table[s] != usual).map(|s| (StateId::from_index(s), table[s])).collect()
 }

@@ -117,10 +117,10 @@ fn expectation(
 ) -> f64 {
     if row.len() < 2 {
         // A single successor has all the mass.
-        return values[row.successors[0] as usize];
+        return values[row.successors[0].index()];
     }
     scratch.values.clear();
-    scratch.values.extend(row.successors.iter().map(|&s| values[s as usize]));
+    scratch.values.extend(row.successors.iter().map(|&s| values[s.index()]));
     let (lowest, highest) = extremes(row, &scratch.values);
     if lowest >= highest {
         return lowest.min(highest).max(0.0);
@@ -174,7 +174,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 /// The distribution that attains the optimum, up to rounding: `p − l` by position.
 pub(super) fn poured_mass(row: Row<'_>, values: &[f64], nature: Direction) -> Vec<f64> {
     let mut order: Vec<usize> = (0..row.len()).collect();
-    order.sort_by(|&i, &j| values[row.successors[i] as usize].total_cmp(&values[row.successors[j] as usize]));
+    order.sort_by(|&i, &j| values[row.successors[i].index()].total_cmp(&values[row.successors[j].index()]));
     if nature == Direction::Max {
         order.reverse();
     }
@@ -197,7 +197,7 @@ mod tests {
     fn sorted(row: Row<'_>, values: &[f64], nature: Direction) -> f64 {
         let poured = poured_mass(row, values, nature);
         let mass = poured.iter().zip(row.lower).map(|(p, l)| p + l);
-        mass.zip(row.successors).map(|(p, &s)| p * values[s as usize]).sum()
+        mass.zip(row.successors).map(|(p, &s)| p * values[s.index()]).sum()
     }
 
     proptest! {
@@ -213,7 +213,7 @@ mod tests {
             for (i, (low, more)) in entries.iter().enumerate() {
                 // Some of the rows have just enough room.
                 let more = if i == 0 { room } else { more * room };
-                rows.push_entry(i as StateId, low / total, (low / total + more).min(1.0));
+                rows.push_entry(StateId::from_index(i), low / total, (low / total + more).min(1.0));
             }
             let id = rows.finish_row();
             let mut block = RowBlock::new(&rows, vec![id]);

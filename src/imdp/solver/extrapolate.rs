@@ -24,14 +24,14 @@ impl Component<'_, '_> {
         let expected = if rate > 0.5 && rate < 1.0 { 0.9 * rate / (1.0 - rate) } else { 0.0 };
         let mut factor = expected.max(4.0 * self.leap).min(1e15);
         let states = self.sweep.states.clone();
-        let old: Vec<f64> = states.iter().map(|&s| self.shared.lower[s as usize]).collect();
+        let old: Vec<f64> = states.iter().map(|&s| self.shared.lower[s.index()]).collect();
         for _ in 0..4 {
             if factor < 1.0 {
                 break;
             }
             for (i, &s) in states.iter().enumerate() {
                 let value = old[i] + factor * self.change[i];
-                self.shared.lower[s as usize] = value.min(self.shared.upper[s as usize]).max(old[i]);
+                self.shared.lower[s.index()] = value.min(self.shared.upper[s.index()]).max(old[i]);
             }
             if self.is_justified(&states) {
                 // The choices must be those that were checked, even if the present ones are as good.
@@ -44,7 +44,7 @@ impl Component<'_, '_> {
             factor /= 6.0;
         }
         self.leap = factor;
-        states.iter().zip(&old).for_each(|(&s, &value)| self.shared.lower[s as usize] = value);
+        states.iter().zip(&old).for_each(|(&s, &value)| self.shared.lower[s.index()] = value);
         false
     }
 
@@ -53,7 +53,7 @@ impl Component<'_, '_> {
         let shared = &mut *self.shared;
         self.sweep.evaluate_rows(&shared.lower, Bound::Lower, &mut shared.lower_rows);
         let choices = shared.model.choices();
-        let holds = |&s: &StateId| shared.lower_rows.best(choices.ranges(s)) >= shared.lower[s as usize];
+        let holds = |&s: &StateId| shared.lower_rows.best(choices.ranges(s)) >= shared.lower[s.index()];
         states.iter().all(holds) && self.is_left(states)
     }
 
@@ -61,7 +61,7 @@ impl Component<'_, '_> {
     fn is_left(&self, states: &[StateId]) -> bool {
         let shared = &*self.shared;
         let all = shared.model.rows();
-        let is_own = |row: &RowId| shared.own_rows.contains(*row as usize);
+        let is_own = |row: &RowId| shared.own_rows.contains(row.index());
         let supports: HashMap<RowId, Vec<bool>> = match shared.players.nature {
             Direction::Min => HashMap::new(),
             Direction::Max => self.sweep.rows().map(|id| (id, self.certain_support(id))).collect(),
@@ -73,13 +73,13 @@ impl Component<'_, '_> {
                 Direction::Min => rows.filter(is_own).collect(),
                 Direction::Max => {
                     let best = shared.lower_rows.best(shared.model.choices().ranges(s));
-                    let attains = |row: &RowId| shared.lower_rows.values()[*row as usize] == best;
+                    let attains = |row: &RowId| shared.lower_rows.values()[row.index()] == best;
                     rows.filter(attains).take(1).filter(is_own).collect()
                 }
             }
         };
         let mut left: Vec<(StateId, Vec<RowId>)> =
-            states.iter().filter(|&&s| shared.lower[s as usize] > 0.0).map(|&s| (s, rows_of(s))).collect();
+            states.iter().filter(|&&s| shared.lower[s.index()] > 0.0).map(|&s| (s, rows_of(s))).collect();
         let mut inside = vec![false; states.len()];
         let position = |s: StateId| states.binary_search(&s).ok();
         left.iter().filter_map(|(s, _)| position(*s)).for_each(|i| inside[i] = true);

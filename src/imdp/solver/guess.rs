@@ -31,7 +31,7 @@ impl LevelSets {
     pub(super) fn cap(&self, candidate: &[f64], weights: &mut [f64]) -> bool {
         let tops: Vec<f64> = self.classes.iter().map(|class| maximum(class, candidate)).collect();
         for &(row, class) in &self.capped {
-            let weight = &mut weights[row as usize];
+            let weight = &mut weights[row.index()];
             *weight = weight.min(tops[class]);
         }
         !self.capped.is_empty()
@@ -88,7 +88,7 @@ pub(super) fn levels(component: &Component<'_, '_>) -> LevelSets {
 /// What a minimising policy chooses for the current lower bounds.
 pub(super) fn greedy_row(shared: &Shared<'_>, state: StateId) -> Option<RowId> {
     let best = shared.lower_rows.best(shared.model.choices().ranges(state));
-    shared.model.choices().rows(state).find(|&row| shared.lower_rows.values()[row as usize] <= best)
+    shared.model.choices().rows(state).find(|&row| shared.lower_rows.values()[row.index()] <= best)
 }
 
 fn capped_rows(component: &Component<'_, '_>, classes: &[Vec<u32>], rows: &[RowId]) -> Vec<(RowId, usize)> {

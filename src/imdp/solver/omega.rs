@@ -63,27 +63,28 @@ fn end_components(model: &IntervalMdp, within: StateSet, nature: Direction) -> V
 
 /// The strong components of a set under the choices that stay in it, less states without such choices.
 fn split(model: &IntervalMdp, set: &StateSet, nature: Direction) -> Vec<StateSet> {
-    let inside = |s: StateId| set.contains(s as usize);
+    let inside = |s: StateId| set.contains(s.index());
     let mut row_stays: Vec<Option<bool>> = vec![None; model.rows().len()];
     let mut stays_in = |row: RowId| {
-        *row_stays[row as usize]
-            .get_or_insert_with(|| stays(model.rows().row(row), nature, |s| set.contains(s as usize)))
+        *row_stays[row.index()]
+            .get_or_insert_with(|| stays(model.rows().row(row), nature, |s| set.contains(s.index())))
     };
     let mut has_choice = StateSet::with_capacity(model.num_states());
     for state in set.ones() {
-        let is_final = model.choices().ranges(state as StateId).is_empty();
-        has_choice.set(state, is_final || model.choices().rows(state as StateId).any(&mut stays_in));
+        let is_final = model.choices().ranges(StateId::from_index(state)).is_empty();
+        has_choice
+            .set(state, is_final || model.choices().rows(StateId::from_index(state)).any(&mut stays_in));
     }
     let states = model.num_states();
     let roots = has_choice.ones().collect::<Vec<_>>();
     let components = strong_components(states, roots.into_iter(), |node, out| {
-        for row in model.choices().rows(node as StateId) {
-            if !row_stays[row as usize].unwrap_or(false) {
+        for row in model.choices().rows(StateId::from_index(node)) {
+            if !row_stays[row.index()].unwrap_or(false) {
                 continue;
             }
             let row = model.rows().row(row);
             for (position, &successor) in row.successors.iter().enumerate() {
-                if !inside(successor) || !has_choice.contains(successor as usize) {
+                if !inside(successor) || !has_choice.contains(successor.index()) {
                     continue;
                 }
                 let reached = match nature {
@@ -91,7 +92,7 @@ fn split(model: &IntervalMdp, set: &StateSet, nature: Direction) -> Vec<StateSet
                     Direction::Max => possible_within(row, position, |s| set.contains(s as usize)),
                 };
                 if reached {
-                    out.push(successor);
+                    out.push(successor.0);
                 }
             }
         }

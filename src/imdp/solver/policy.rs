@@ -19,7 +19,11 @@ impl Policy {
     /// One choice per state, [`NO_CHOICE`] for none.
     pub fn stationary(choices: &[u32]) -> Self {
         let changes = choices.iter().enumerate().filter(|(_, choice)| **choice != NO_CHOICE);
-        Self::assemble(None, choices.len(), &changes.map(|(s, &c)| (s as StateId, 1, c)).collect::<Vec<_>>())
+        Self::assemble(
+            None,
+            choices.len(),
+            &changes.map(|(s, &c)| (StateId::from_index(s), 1, c)).collect::<Vec<_>>(),
+        )
     }
 
     /// From `(state, steps left, choice)`, ascending in the steps left for every state.
@@ -30,7 +34,7 @@ impl Policy {
     fn assemble(horizon: Option<u64>, states: usize, list: &[(StateId, u64, u32)]) -> Self {
         let mut starts = vec![0; states + 1];
         for &(state, ..) in list {
-            starts[state as usize + 1] += 1;
+            starts[state.index() + 1] += 1;
         }
         for state in 0..states {
             starts[state + 1] += starts[state];
@@ -38,8 +42,8 @@ impl Policy {
         let mut next = starts.clone();
         let mut changes = vec![(0, 0); list.len()];
         for &(state, left, choice) in list {
-            changes[next[state as usize]] = (left, choice);
-            next[state as usize] += 1;
+            changes[next[state.index()]] = (left, choice);
+            next[state.index()] += 1;
         }
         Self { horizon, starts, changes }
     }
@@ -66,7 +70,7 @@ impl Policy {
     ///
     /// A stationary policy has one pair at most, with 1 step left.
     pub fn changes(&self, state: StateId) -> &[(u64, u32)] {
-        match (self.starts.get(state as usize), self.starts.get(state as usize + 1)) {
+        match (self.starts.get(state.index()), self.starts.get(state.index() + 1)) {
             (Some(&start), Some(&end)) => &self.changes[start..end],
             _ => &[],
         }

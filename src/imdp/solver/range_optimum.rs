@@ -81,11 +81,11 @@ impl RangeOptimum {
             let level = range.len().ilog2() as usize;
             match self.levels.get(level) {
                 Some(table) => {
-                    let last = range.last as usize + 1 - (1 << level);
-                    better(best, better(table[range.first as usize], table[last]))
+                    let last = range.last.index() + 1 - (1 << level);
+                    better(best, better(table[range.first.index()], table[last]))
                 }
                 None => {
-                    let values = &self.levels[0][range.first as usize..=range.last as usize];
+                    let values = &self.levels[0][range.first.index()..=range.last.index()];
                     values.iter().fold(best, |best, &value| better(best, value))
                 }
             }
@@ -96,6 +96,7 @@ impl RangeOptimum {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::RowId;
 
     #[test]
     fn agrees_with_a_scan() {
@@ -113,7 +114,7 @@ mod tests {
                         .iter()
                         .copied()
                         .reduce(|a, b| if optimum.prefers(b, a) { b } else { a });
-                    let range = RowRange { first: first as u32, last: last as u32 };
+                    let range = RowRange { first: RowId(first as u32), last: RowId(last as u32) };
                     assert_eq!(table.best(&[range]), scan.unwrap());
                 }
             }

@@ -59,7 +59,7 @@ impl<'a> Sweep<'a> {
         let (all, nature) = (self.model.rows(), self.players.nature);
         let weights = table.values_mut();
         let mut put = |block: &RowBlock, results: Vec<f64>| {
-            block.rows.iter().zip(results).for_each(|(&row, w)| weights[row as usize] = w);
+            block.rows.iter().zip(results).for_each(|(&row, w)| weights[row.index()] = w);
         };
         if let [block] = &mut self.blocks[..] {
             let results = block.evaluate(all, values, nature, side);

@@ -45,7 +45,7 @@ pub(super) fn until_with_patience(
     let states = model.num_states();
     let rows = model.rows().len();
     let mut moving = StateSet::with_capacity(states);
-    let has_rows = |s: &usize| !model.choices().ranges(*s as StateId).is_empty();
+    let has_rows = |s: &usize| !model.choices().ranges(StateId::from_index(*s)).is_empty();
     (0..states)
         .filter(|&s| safe.contains(s) && !goal.contains(s))
         .filter(has_rows)
@@ -116,17 +116,17 @@ enum Part {
 /// The strong components of the open states, successors first; ranges are walked as trees of rows.
 fn parts(model: &IntervalMdp, open: &impl Fn(usize) -> bool) -> Vec<Part> {
     let (states, rows) = (model.num_states(), model.rows().len());
-    let tree = ChoiceTree::new(rows, model.choices(), |s| open(s as usize));
+    let tree = ChoiceTree::new(rows, model.choices(), |s| open(s.index()));
     let components = strong_components(states + 2 * rows, (0..states).filter(|&s| open(s)), |node, out| {
         match node.checked_sub(states) {
-            None => out.extend(tree.cover(node as StateId).iter().map(|node| node + states as u32)),
+            None => out.extend(tree.cover(StateId::from_index(node)).iter().map(|node| node + states as u32)),
             Some(inner) if inner < rows => {
                 out.extend([2 * inner, 2 * inner + 1].map(|child| (states + child) as u32));
             }
             Some(leaf) => {
-                let row = model.rows().row((leaf - rows) as RowId);
+                let row = model.rows().row(RowId::from_index(leaf - rows));
                 let possible = row.successors.iter().zip(row.upper).filter(|(_, u)| **u > 0.0);
-                out.extend(possible.map(|(s, _)| *s).filter(|&s| open(s as usize)));
+                out.extend(possible.filter(|(s, _)| open(s.index())).map(|(s, _)| s.0));
             }
         }
     });
@@ -135,9 +135,9 @@ fn parts(model: &IntervalMdp, open: &impl Fn(usize) -> bool) -> Vec<Part> {
         for node in component {
             let node = node as usize;
             if node < states {
-                own_states.push(node as StateId);
+                own_states.push(StateId::from_index(node));
             } else if node >= states + rows {
-                own_rows.push((node - states - rows) as RowId);
+                own_rows.push(RowId::from_index(node - states - rows));
             }
         }
         match (&own_states[..], &own_rows[..]) {
@@ -160,21 +160,21 @@ fn longest_dependency(parts: &[Part], model: &IntervalMdp, rows: usize) -> usize
     let mut of_state = vec![0u32; model.num_states()];
     let mut longest = 0;
     let behind = |row: RowId, of_state: &[u32]| {
-        model.rows().row(row).successors.iter().map(|&s| of_state[s as usize]).max().unwrap_or(0)
+        model.rows().row(row).successors.iter().map(|&s| of_state[s.index()]).max().unwrap_or(0)
     };
     let across = |state: StateId, of_row: &[u32]| {
-        model.choices().rows(state).map(|row| of_row[row as usize]).max().unwrap_or(0)
+        model.choices().rows(state).map(|row| of_row[row.index()]).max().unwrap_or(0)
     };
     for part in parts {
         match part {
-            Part::Row(row) => of_row[*row as usize] = behind(*row, &of_state),
-            Part::State(state) => of_state[*state as usize] = across(*state, &of_row),
+            Part::Row(row) => of_row[row.index()] = behind(*row, &of_state),
+            Part::State(state) => of_state[state.index()] = across(*state, &of_row),
             Part::Cyclic { states, rows } => {
                 let rows_behind = rows.iter().map(|&row| behind(row, &of_state)).max();
                 let depth =
                     states.iter().map(|&s| across(s, &of_row)).max().max(rows_behind).unwrap_or(0) + 1;
-                rows.iter().for_each(|&row| of_row[row as usize] = depth);
-                states.iter().for_each(|&s| of_state[s as usize] = depth);
+                rows.iter().for_each(|&row| of_row[row.index()] = depth);
+                states.iter().for_each(|&s| of_state[s.index()] = depth);
                 longest = longest.max(depth as usize);
             }
         }
@@ -193,7 +193,7 @@ impl Shared<'_> {
     /// Both bounds on a state whose rows are finished.
     fn evaluate_state(&mut self, state: StateId) {
         let ranges = self.model.choices().ranges(state);
-        let s = state as usize;
+        let s = state.index();
         self.lower[s] = self.lower_rows.best(ranges).max(self.lower[s]);
         self.upper[s] = self.upper_rows.best(ranges).min(self.upper[s]).max(self.lower[s]);
         if self.wants_policy {
@@ -210,8 +210,8 @@ impl Shared<'_> {
     pub(super) fn keeps_choice(&self, state: StateId, value: f64) -> bool {
         self.model
             .choices()
-            .row_of_choice(state, self.choices[state as usize])
-            .is_some_and(|row| self.lower_rows.values()[row as usize] >= value)
+            .row_of_choice(state, self.choices[state.index()])
+            .is_some_and(|row| self.lower_rows.values()[row.index()] >= value)
     }
 
     /// Makes the policy choose the best row of a state for the bounds that it must guarantee.
@@ -221,9 +221,9 @@ impl Shared<'_> {
             Direction::Min => &self.upper_rows,
         };
         let best = table.best(self.model.choices().ranges(state));
-        let attains = |row: RowId| table.values()[row as usize] == best;
+        let attains = |row: RowId| table.values()[row.index()] == best;
         let choice = first_choice(self.model.choices(), state, attains);
-        self.choices[state as usize] = choice.unwrap_or(NO_CHOICE);
+        self.choices[state.index()] = choice.unwrap_or(NO_CHOICE);
     }
 
     /// Whether choices must be noted when upper bounds improve.
@@ -248,7 +248,7 @@ impl Shared<'_> {
         require_memory("the certificate", bytes as u64)?;
         let of_doubles = |precise: &Precise| {
             let mut states = moving.clone();
-            precise.keys().for_each(|&s| states.remove(s as usize));
+            precise.keys().for_each(|&s| states.remove(s.index()));
             states
         };
         let fractions = |precise: &Precise| -> Replaced {

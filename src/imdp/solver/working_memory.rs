@@ -16,12 +16,12 @@ const ROW_BYTES: u64 = 96;
 /// # Errors
 /// [`MemoryError`] with the estimate.
 pub(super) fn require_working_memory(model: &IntervalMdp) -> Result<(), MemoryError> {
-    let states = model.num_states() as StateId;
-    let ranges = (0..states).flat_map(|state| model.choices().ranges(state));
+    let states = model.num_states();
+    let ranges = StateId::first(states).flat_map(|state| model.choices().ranges(state));
     // Two tables of the optima of neighbouring rows, see `range_optimum`.
     let levels = u64::from(ranges.map(|range| range.len()).max().unwrap_or(1).ilog2()) + 1;
     let rows = model.rows();
-    let bytes = STATE_BYTES * u64::from(states)
+    let bytes = STATE_BYTES * states as u64
         + ENTRY_BYTES * rows.num_entries() as u64
         + (ROW_BYTES + 16 * levels) * rows.len() as u64;
     require_memory("solving", bytes)

@@ -23,13 +23,13 @@ impl Bounds {
     /// Replaces a bound by a double.
     pub(super) fn set(&mut self, state: usize, value: f64) {
         self.doubles[state] = value;
-        self.exact.remove(&(state as StateId));
+        self.exact.remove(&StateId::from_index(state));
     }
 
     /// Replaces a bound by a fraction.
     pub(super) fn set_exact(&mut self, state: usize, value: Rational) {
         self.doubles[state] = self.side.round(&value);
-        self.exact.insert(state as StateId, value);
+        self.exact.insert(StateId::from_index(state), value);
     }
 
     /// The bound as a double, rounded to the safe side.
@@ -39,12 +39,12 @@ impl Bounds {
 
     /// The bound if it is a fraction.
     pub(super) fn fraction(&self, state: usize) -> Option<&Rational> {
-        self.exact.get(&(state as StateId))
+        self.exact.get(&StateId::from_index(state))
     }
 
     /// The states whose bounds are fractions.
     pub(super) fn fractions(&self) -> impl Iterator<Item = (usize, &Rational)> {
-        self.exact.iter().map(|(&state, bound)| (state as usize, bound))
+        self.exact.iter().map(|(&state, bound)| (state.index(), bound))
     }
 
     /// The bound itself.

@@ -166,10 +166,10 @@ impl Proof<'_> {
             if previous.replace(state).is_some_and(|previous| previous >= state) {
                 return rejected(state, "is out of order");
             }
-            if !self.task.moving.contains(state as usize) {
+            if !self.task.moving.contains(state.index()) {
                 return rejected(state, "has nothing to choose or does not exist");
             }
-            enter(self, state as usize, item);
+            enter(self, state.index(), item);
         }
         Ok(())
     }
@@ -185,7 +185,7 @@ impl Proof<'_> {
                 (low, high) = (one_minus_down(high), one_minus_up(low));
                 exact = (Rational::one() - exact.1, Rational::one() - exact.0);
             }
-            let state = s as StateId;
+            let state = StateId::from_index(s);
             if !Side::Lower.follows(lower, low) {
                 return Err(Rejection::Claim { side: Side::Lower, claimed: lower, proved: low, state });
             }

@@ -27,8 +27,8 @@ impl Extremum {
     pub(super) fn of(&self, ranges: &[RowRange]) -> f64 {
         let of_range = |range: &RowRange| {
             let level = range.len().ilog2() as usize;
-            let last = range.last as usize + 1 - (1 << level);
-            self.side.worse(self.levels[level][range.first as usize], self.levels[level][last])
+            let last = range.last.index() + 1 - (1 << level);
+            self.side.worse(self.levels[level][range.first.index()], self.levels[level][last])
         };
         ranges.iter().map(of_range).fold(self.side.best(), |a, b| self.side.worse(a, b))
     }

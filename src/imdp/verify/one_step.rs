@@ -25,7 +25,7 @@ impl<'a> ExactRows<'a> {
     /// # Errors
     /// [`MemoryError`] if they would not fit.
     pub(super) fn new(model: &'a IntervalMdp, task: &Task) -> Result<Self, MemoryError> {
-        let moving = || task.moving.ones().map(|s| s as StateId);
+        let moving = || task.moving.ones().map(StateId::from_index);
         let all = model.rows();
         let used: Vec<RowId> = model.choices().used_rows(all.len(), moving());
         let entries: u64 = used.iter().map(|&row| all.row_len(row) as u64).sum();
@@ -34,17 +34,17 @@ impl<'a> ExactRows<'a> {
         require_memory("the exact model", entries * if tiny { 400 } else { 32 } + 256 * all.len() as u64)?;
         let mut rows = vec![None; all.len()];
         let exact: Vec<_> = used.par_iter().map(|&row| ExactRow::new(all.row(row))).collect();
-        used.iter().zip(exact).for_each(|(&row, exact)| rows[row as usize] = exact);
+        used.iter().zip(exact).for_each(|(&row, exact)| rows[row.index()] = exact);
         let longest =
             moving().flat_map(|s| model.choices().ranges(s)).map(|range| range.len()).max().unwrap_or(1);
         let mut set = StateSet::with_capacity(all.len());
-        used.iter().for_each(|&row| set.insert(row as usize));
+        used.iter().for_each(|&row| set.insert(row.index()));
         Ok(Self { model, used: set, rows, longest })
     }
 
     /// The exact bounds of a row.
     pub(super) fn get(&self, row: RowId) -> Result<&ExactRow, Rejection> {
-        self.rows[row as usize].as_ref().ok_or(Rejection::NoDistribution { row })
+        self.rows[row.index()].as_ref().ok_or(Rejection::NoDistribution { row })
     }
 }
 
@@ -86,7 +86,7 @@ impl<'a> SideProof<'a> {
     pub(super) fn step(&mut self, next: Bounds, choices: &[u32], step: Option<u64>) -> Result<(), Rejection> {
         if self.follows_policy {
             let chosen = self.chosen_rows(&next, choices, step)?;
-            let rows: StateSet = chosen.iter().map(|&(_, row)| row as usize).collect();
+            let rows: StateSet = chosen.iter().map(|&(_, row)| row.index()).collect();
             self.evaluate(&rows)?;
             self.check_policy(&next, &chosen, step)?;
         } else {
@@ -95,10 +95,10 @@ impl<'a> SideProof<'a> {
         }
         self.check_fractions(&next, choices, step)?;
         let Self { rows, fresh, values, .. } = self;
-        let changed = |s: &StateId| !values.agrees(&next, *s as usize);
+        let changed = |s: &StateId| !values.agrees(&next, s.index());
         let stale: Vec<usize> = fresh
             .ones()
-            .filter(|&row| rows.model.rows().row(row as RowId).successors.iter().any(changed))
+            .filter(|&row| rows.model.rows().row(RowId::from_index(row)).successors.iter().any(changed))
             .collect();
         stale.into_iter().for_each(|row| fresh.set(row, false));
         self.values = next;
@@ -115,8 +115,8 @@ impl<'a> SideProof<'a> {
         let trivial = |s: usize| next.fraction(s).is_none() && next.double(s) == self.side.trivial();
         let open = self.task.moving.ones().filter(|&s| !trivial(s));
         let chosen = open.map(|s| {
-            let row = self.rows.model.choices().row_of_choice(s as StateId, choices[s]);
-            let missing = Rejection::NoChoice { step, state: s as StateId, side: self.side };
+            let row = self.rows.model.choices().row_of_choice(StateId::from_index(s), choices[s]);
+            let missing = Rejection::NoChoice { step, state: StateId::from_index(s), side: self.side };
             row.map(|row| (s, row)).ok_or(missing)
         });
         chosen.collect()
@@ -128,9 +128,8 @@ impl<'a> SideProof<'a> {
         chosen: &[(usize, RowId)],
         step: Option<u64>,
     ) -> Result<(), Rejection> {
-        let fails = |(s, row): &&(usize, RowId)| {
-            !self.side.follows(next.double(*s), self.expectations[*row as usize])
-        };
+        let fails =
+            |(s, row): &&(usize, RowId)| !self.side.follows(next.double(*s), self.expectations[row.index()]);
         match chosen.iter().filter(|(s, _)| next.fraction(*s).is_none()).find(fails) {
             Some(&(s, row)) => Err(self.rejection(next, s, row, step)),
             None => Ok(()),
@@ -142,19 +141,19 @@ impl<'a> SideProof<'a> {
         let choices = self.rows.model.choices();
         let fails = |s: &usize| {
             let double = next.fraction(*s).is_none();
-            double && !self.side.follows(next.double(*s), worst.of(choices.ranges(*s as StateId)))
+            double && !self.side.follows(next.double(*s), worst.of(choices.ranges(StateId::from_index(*s))))
         };
         let Some(s) = self.task.moving.ones().find(fails) else { return Ok(()) };
-        let refutes = |row: &RowId| !self.side.follows(next.double(s), self.expectations[*row as usize]);
-        let row = choices.rows(s as StateId).find(refutes).unwrap_or_default();
+        let refutes = |row: &RowId| !self.side.follows(next.double(s), self.expectations[row.index()]);
+        let row = choices.rows(StateId::from_index(s)).find(refutes).unwrap_or_default();
         Err(self.rejection(next, s, row, step))
     }
 
     fn rejection(&self, next: &Bounds, s: usize, row: RowId, step: Option<u64>) -> Rejection {
-        let expectation = self.expectations[row as usize];
+        let expectation = self.expectations[row.index()];
         Rejection::Bound {
             step,
-            state: s as StateId,
+            state: StateId::from_index(s),
             side: self.side,
             bound: next.double(s),
             row,
@@ -171,8 +170,8 @@ impl<'a> SideProof<'a> {
         for (s, bound) in next.fractions() {
             let of_state = self.rows.model.choices();
             let rows: Vec<RowId> = match self.follows_policy {
-                true => of_state.row_of_choice(s as StateId, choices[s]).into_iter().collect(),
-                false => of_state.rows(s as StateId).collect(),
+                true => of_state.row_of_choice(StateId::from_index(s), choices[s]).into_iter().collect(),
+                false => of_state.rows(StateId::from_index(s)).collect(),
             };
             for row in rows {
                 let successors = self.rows.model.rows().row(row).successors;
@@ -191,7 +190,7 @@ impl<'a> SideProof<'a> {
 
     /// Computes the expectations of rows that are needed and not known for the present values.
     fn evaluate(&mut self, needed: &StateSet) -> Result<(), Rejection> {
-        let stale: Vec<RowId> = needed.difference(&self.fresh).map(|row| row as RowId).collect();
+        let stale: Vec<RowId> = needed.difference(&self.fresh).map(RowId::from_index).collect();
         if stale.is_empty() {
             return Ok(());
         }
@@ -203,8 +202,8 @@ impl<'a> SideProof<'a> {
         };
         let results: Vec<f64> = stale.par_iter().map(expectation).collect::<Result<_, Rejection>>()?;
         for (&row, result) in stale.iter().zip(results) {
-            self.expectations[row as usize] = result;
-            self.fresh.insert(row as usize);
+            self.expectations[row.index()] = result;
+            self.fresh.insert(row.index());
         }
         self.evaluated += stale.len() as u64;
         Ok(())

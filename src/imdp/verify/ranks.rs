@@ -21,15 +21,15 @@ pub(super) fn check_ranks(
     ranks: &[u32],
 ) -> Result<(), Rejection> {
     let open = |s: usize| task.moving.contains(s) && lower.is_positive(s);
-    let rank = |s: u32| if open(s as usize) { ranks[s as usize] } else { 0 };
+    let rank = |s: StateId| if open(s.index()) { ranks[s.index()] } else { 0 };
     let of_choices = rows.model.choices();
-    let states = || task.moving.ones().filter(|&s| open(s)).map(|s| s as StateId);
+    let states = || task.moving.ones().filter(|&s| open(s)).map(StateId::from_index);
     let values = lower.to_compare();
-    let chosen = |s: StateId| of_choices.row_of_choice(s, choices[s as usize]);
+    let chosen = |s: StateId| of_choices.row_of_choice(s, choices[s.index()]);
     let used: Vec<RowId> = if task.policy_maximises {
         let mut set = StateSet::with_capacity(rows.model.rows().len());
-        states().filter_map(chosen).for_each(|row| set.insert(row as usize));
-        set.ones().map(|row| row as RowId).collect()
+        states().filter_map(chosen).for_each(|row| set.insert(row.index()));
+        set.ones().map(RowId::from_index).collect()
     } else {
         of_choices.used_rows(rows.model.rows().len(), states())
     };
@@ -47,17 +47,17 @@ pub(super) fn check_ranks(
     };
     let found: Vec<u64> = used.par_iter().map(needed_by).collect::<Result<_, Rejection>>()?;
     let mut needed = vec![u64::MAX; rows.model.rows().len()];
-    used.iter().zip(found).for_each(|(&row, least)| needed[row as usize] = least);
+    used.iter().zip(found).for_each(|(&row, least)| needed[row.index()] = least);
     for state in states() {
         let rank = rank(state);
-        let refutes = |row: &RowId| u64::from(rank) < needed[*row as usize];
+        let refutes = |row: &RowId| u64::from(rank) < needed[row.index()];
         let refuted = if task.policy_maximises {
             chosen(state).filter(refutes)
         } else {
             of_choices.rows(state).find(refutes)
         };
         if let Some(row) = refuted {
-            return Err(Rejection::Rank { state, rank, row, needed: needed[row as usize] });
+            return Err(Rejection::Rank { state, rank, row, needed: needed[row.index()] });
         }
     }
     Ok(())

@@ -26,7 +26,7 @@ impl Task {
             |error: crate::property::PropertyError| Rejection::Property { error: error.to_string() };
         let objective = property.resolve(model.kind()).map_err(refused)?;
         let query = objective.query(model).map_err(refused)?;
-        let has_rows = |s: &usize| !model.choices().ranges(*s as StateId).is_empty();
+        let has_rows = |s: &usize| !model.choices().ranges(StateId::from_index(*s)).is_empty();
         let mut moving: StateSet = (0..model.num_states()).filter(has_rows).collect();
         moving.grow(model.num_states());
         let (goal, steps) = match query.kind {

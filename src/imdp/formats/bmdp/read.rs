@@ -82,9 +82,9 @@ fn read_line(
     actions: u64,
     transitions: &mut LooseTransitions,
 ) -> Result<(), Box<crate::formats::import::Fault>> {
-    let state = fields.number("a state", states)? as StateId;
+    let state = StateId(fields.number("a state", states)? as u32);
     let action = fields.number("an action", actions)?;
-    let successor = fields.number("a destination", states)? as StateId;
+    let successor = StateId(fields.number("a destination", states)? as u32);
     let lower = fields.next("the lower bound")?;
     let upper = fields.last("the upper bound and the end of the line")?;
     let upper = upper.ok_or_else(|| fields.fault("the upper bound"))?;

@@ -23,7 +23,7 @@ const GOALS: [&str; 4] = [REACH, "reached", "goal", "target"];
 impl<'a> BmdpWriter<'a> {
     /// Prepares to write `model`.
     pub fn new(model: &'a IntervalMdp) -> Self {
-        let states = 0..model.num_states() as StateId;
+        let states = StateId::first(model.num_states());
         let actions = states.map(|state| model.choices().num_choices_of(state)).max().unwrap_or(0).max(1);
         let goal = GOALS.into_iter().find(|goal| model.labels().get(goal).is_some());
         Self { model, actions, goal }
@@ -47,7 +47,7 @@ impl<'a> BmdpWriter<'a> {
             writeln!(out, "{state}")?;
         }
         let mut text = String::new();
-        for state in 0..model.num_states() as StateId {
+        for state in StateId::first(model.num_states()) {
             text.clear();
             for (action, row) in padded_choices(model, state, self.actions).enumerate() {
                 self.transitions(state, action, row, &mut text);

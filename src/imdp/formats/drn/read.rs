@@ -7,7 +7,7 @@ use crate::formats::import::{
     Assembly, AssemblyError, Cursor, Expected, Fault, ImportError, Imported, Judgement, Lines, PendingRow,
     Position, RowFault, Source, Warning, describe, hash_row, open, read_any_interval, written_bounds,
 };
-use crate::model::{ActionNames, MemoryError, ModelKind, Rows, StateId};
+use crate::model::{ActionNames, MemoryError, ModelKind, RowId, Rows, StateId};
 use std::io::BufRead;
 use std::path::Path;
 
@@ -140,7 +140,7 @@ impl Body<'_> {
         if cursor.unsigned("the number of a state")? != next {
             return Err(cursor.fault_at(start, format!("state {next}")).into());
         }
-        let state = next as StateId;
+        let state = StateId(next as u32);
         self.state = Some(state);
         read_labels(cursor, state, &mut self.notes)
     }
@@ -194,7 +194,7 @@ impl Body<'_> {
         let interval = read_any_interval(cursor, &mut self.written)?;
         self.written.push(b'\n');
         self.lines_of_row.push(line);
-        self.row.push(successor as StateId, interval);
+        self.row.push(StateId(successor as u32), interval);
         end_of_line(cursor, "the end of the line")
     }
 
@@ -228,7 +228,7 @@ impl Body<'_> {
             return Ok(());
         }
         self.indices &= choice.is_index;
-        let row = self.rows.row(0);
+        let row = self.rows.row(RowId(0));
         self.assembly.push(state, hash_row(row), row, choice.action).map_err(|error| match error {
             AssemblyError::Memory(error) => LineError::Import(error.into()),
             AssemblyError::TooManyRows => {

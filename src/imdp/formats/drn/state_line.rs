@@ -83,12 +83,12 @@ impl StateNotes {
         if !cursor.skip(b"values") {
             return Ok(());
         }
-        if self.valued != state as usize || self.names.is_empty() {
+        if self.valued != state.index() || self.names.is_empty() {
             return Err(cursor.fault_at(0, "values of declared variables, once and for every state"));
         }
         for variable in 0..self.names.len() {
             cursor.expect(b' ', "one blank and the value of the next variable")?;
-            read_variable_value(cursor, state as usize, variable, self.room, &mut self.columns)?;
+            read_variable_value(cursor, state.index(), variable, self.room, &mut self.columns)?;
         }
         self.valued += 1;
         cursor.line_end("the end of the line")
@@ -97,7 +97,7 @@ impl StateNotes {
     /// Reads a comment that may hold the values of Storm's variables in `state`.
     pub(super) fn read_comment(&mut self, state: Option<StateId>, comment: &[u8]) {
         if let Some(state) = state.filter(|_| comment.starts_with(b"[")) {
-            self.valuations.read(comment, state as usize);
+            self.valuations.read(comment, state.index());
         }
     }
 
@@ -153,7 +153,7 @@ pub(super) fn read_labels(
         }
         match cursor.peek() {
             b'[' if first => {
-                notes.rewards.of_state(cursor, state as usize)?;
+                notes.rewards.of_state(cursor, state.index())?;
                 first = false;
                 continue;
             }
@@ -164,8 +164,8 @@ pub(super) fn read_labels(
         }
         let start = cursor.offset();
         let set = notes.label(read_name(cursor)?)?;
-        set.grow(state as usize + 1);
-        if set.put(state as usize) {
+        set.grow(state.index() + 1);
+        if set.put(state.index()) {
             return Err(cursor.fault_at(start, "every label of a state once").into());
         }
     }

@@ -59,7 +59,7 @@ impl RowTexts {
     }
 
     fn row(&self, row: RowId) -> &[u8] {
-        let row = row as usize;
+        let row = row.index();
         &self.text[row.checked_sub(1).map_or(0, |before| self.ends[before])..self.ends[row]]
     }
 }
@@ -120,7 +120,7 @@ impl<'a> DrnWriter<'a> {
         let choices = self.model.choices();
         let mut choice = 0;
         let mut text = String::new();
-        for state in 0..self.model.num_states() as StateId {
+        for state in StateId::first(self.model.num_states()) {
             text.clear();
             self.state_lines(state, &mut text);
             take(text.as_bytes())?;
@@ -158,7 +158,7 @@ impl<'a> DrnWriter<'a> {
             ModelKind::Idtmc => "DTMC",
         };
         let states = model.num_states();
-        let deadlocks = (0..states as StateId).filter(|&state| model.choices().is_deadlock(state)).count();
+        let deadlocks = StateId::first(states).filter(|&state| model.choices().is_deadlock(state)).count();
         let choices = model.size().choices + deadlocks as u64;
         let _ = write!(
             text,
@@ -173,7 +173,7 @@ impl<'a> DrnWriter<'a> {
         // Writing to a string cannot fail.
         let _ = write!(text, "state {state}");
         for (name, states) in &self.labels {
-            if states.contains(state as usize) {
+            if states.contains(state.index()) {
                 let _ = write!(text, " {name}");
             }
         }

@@ -161,22 +161,22 @@ impl Assembly {
 
     fn finish_states_before(&mut self, next: StateId) {
         let first = match self.last {
-            None => 0,
+            None => StateId(0),
             Some(state) if self.stays => {
                 self.stays = false;
                 self.choices.push_absorbing();
-                state + 1
+                state.next()
             }
             Some(state) => {
                 self.choices.finish_state();
-                state + 1
+                state.next()
             }
         };
-        for _ in first..next {
+        for _ in first.0..next.0 {
             self.choices.finish_state();
         }
         if first < next {
-            self.deadlocks.get_or_insert((0, first)).0 += u64::from(next - first);
+            self.deadlocks.get_or_insert((0, first)).0 += u64::from(next.0 - first.0);
         }
     }
 
@@ -185,7 +185,7 @@ impl Assembly {
         let id = match self.table.find(hash, row, &self.rows) {
             Some(id) => id,
             None => {
-                if self.rows.len() >= RowId::MAX as usize {
+                if self.rows.len() >= RowId::MAX.index() {
                     return Err(AssemblyError::TooManyRows);
                 }
                 let id = self.rows.push_row(row);
@@ -226,7 +226,7 @@ impl Assembly {
 
     /// Ends the last state; those that follow have no choices.
     pub(crate) fn finish(mut self) -> Transitions {
-        self.finish_states_before(self.expected.states as StateId);
+        self.finish_states_before(StateId(self.expected.states as u32));
         let mut names = vec![String::new(); self.name_ids.len()];
         for (name, id) in self.name_ids {
             names[id as usize] = name;

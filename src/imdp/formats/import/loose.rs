@@ -8,7 +8,7 @@ use super::interval::{Interval, read_any_interval};
 use super::pending_row::{PendingRow, RowFault};
 use super::row_table::hash_row;
 use super::text::{Cursor, counted, describe};
-use crate::model::{ActionNames, MemoryError, ModelKind, Rows, StateId, require_memory};
+use crate::model::{ActionNames, MemoryError, ModelKind, RowId, Rows, StateId, require_memory};
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -163,7 +163,7 @@ impl LooseTransitions {
                 widened.get_or_insert((0, first.number + 1)).0 += 1;
             }
             let action = self.names.get(first.action as usize).map(|name| assembly.action(name));
-            let content = rows.row(0);
+            let content = rows.row(RowId(0));
             assembly.push(first.state, hash_row(content), content, action).map_err(|error| match error {
                 AssemblyError::Memory(error) => ImportError::Memory(error),
                 AssemblyError::TooManyRows => fault(first, AssemblyError::at_most(), "one more".into()),

@@ -89,11 +89,11 @@ pub fn read_from(source: impl Read, length: u64) -> Result<IntervalMdp, NativeEr
 fn read_rows(sections: &mut Sections<impl Read>) -> Result<Rows, NativeError> {
     sections.start(Section::RowLengths)?;
     let lengths = sections.rest(u32::from_le_bytes)?;
-    if lengths.len() > RowId::MAX as usize {
+    if lengths.len() > RowId::MAX.index() {
         return Err(sections.broken("there are more rows than can be numbered"));
     }
     sections.start(Section::Successors)?;
-    let successors = sections.rest(u32::from_le_bytes)?;
+    let successors = sections.rest(|bytes| StateId(u32::from_le_bytes(bytes)))?;
     sections.start(Section::Lower)?;
     let lower = sections.rest(f64::from_le_bytes)?;
     sections.start(Section::Upper)?;
@@ -105,13 +105,16 @@ fn read_rows(sections: &mut Sections<impl Read>) -> Result<Rows, NativeError> {
 fn read_choices(sections: &mut Sections<impl Read>) -> Result<Choices, NativeError> {
     sections.start(Section::RangeCounts)?;
     let counts = sections.rest(u32::from_le_bytes)?;
-    if counts.len() > StateId::MAX as usize {
+    if counts.len() > StateId::MAX.index() {
         return Err(sections.broken("there are more states than can be numbered"));
     }
     sections.start(Section::Ranges)?;
     let ranges = sections.rest(|bytes: [u8; 8]| {
         let [a, b, c, d, e, f, g, h] = bytes;
-        RowRange { first: u32::from_le_bytes([a, b, c, d]), last: u32::from_le_bytes([e, f, g, h]) }
+        RowRange {
+            first: RowId(u32::from_le_bytes([a, b, c, d])),
+            last: RowId(u32::from_le_bytes([e, f, g, h])),
+        }
     })?;
     if ranges.iter().any(|range| range.first > range.last) {
         return Err(sections.broken("a range ends before it starts"));

@@ -38,14 +38,14 @@ pub fn write(model: &IntervalMdp, out: &mut impl Write) -> io::Result<()> {
     out.write_all(&VERSION.to_le_bytes())?;
     let (rows, choices) = (model.rows(), model.choices());
     let (states, entries) = (model.num_states(), rows.num_entries() as u64);
-    let every_state = || 0..states as StateId;
+    let every_state = || StateId::first(states);
 
     out.section(Section::Kind, 1)?;
     out.write_all(&[u8::from(model.kind() == ModelKind::Idtmc)])?;
     out.section(Section::RowLengths, 4 * rows.len() as u64)?;
     out.array(rows.iter().map(|row| (row.len() as u32).to_le_bytes()))?;
     out.section(Section::Successors, 4 * entries)?;
-    out.array(rows.iter().flat_map(|row| row.successors).map(|state| state.to_le_bytes()))?;
+    out.array(rows.iter().flat_map(|row| row.successors).map(|state| state.0.to_le_bytes()))?;
     out.section(Section::Lower, 8 * entries)?;
     out.array(rows.iter().flat_map(|row| row.lower).map(|bound| bound.to_le_bytes()))?;
     out.section(Section::Upper, 8 * entries)?;
@@ -54,7 +54,7 @@ pub fn write(model: &IntervalMdp, out: &mut impl Write) -> io::Result<()> {
     out.array(every_state().map(|state| (choices.ranges(state).len() as u32).to_le_bytes()))?;
     out.section(Section::Ranges, 8 * choices.num_ranges() as u64)?;
     let ranges = every_state().flat_map(|state| choices.ranges(state));
-    out.array(ranges.flat_map(|range| [range.first.to_le_bytes(), range.last.to_le_bytes()]))?;
+    out.array(ranges.flat_map(|range| [range.first.0.to_le_bytes(), range.last.0.to_le_bytes()]))?;
     out.section(Section::Absorbing, set_bytes(states))?;
     out.set(choices.absorbing(), states)?;
     out.section(Section::Initial, set_bytes(states))?;

@@ -5,7 +5,7 @@ use crate::formats::import::{
     Assembly, AssemblyError, Expected, ImportError, Imported, Interval, Judgement, PendingRow, Position,
     RowFault, Warning, hash_row,
 };
-use crate::model::{ModelKind, Rows, StateId, StateSet, StateVariables, require_memory};
+use crate::model::{ModelKind, RowId, Rows, StateId, StateSet, StateVariables, require_memory};
 use crate::numeric::shortest_decimal;
 use hdf5_pure::{AttrValue, File};
 use std::collections::HashMap;
@@ -204,7 +204,7 @@ impl Reader<'_> {
                     }
                     // There is a negative zero.
                     row.push(
-                        successor as StateId,
+                        StateId(successor as u32),
                         Interval::of_doubles(lower_bound + 0.0, upper_bound + 0.0),
                     );
                 }
@@ -226,20 +226,20 @@ impl Reader<'_> {
                 let written = || texts.iter().map(|(l, u)| (l.as_bytes(), u.as_bytes()));
                 let judgement = row.finish(written, &mut rows).map_err(|fault| match fault {
                     RowFault::Twice { successor, .. } => {
-                        at().refuse(RowFault::ONCE, (successor + 1).to_string())
+                        at().refuse(RowFault::ONCE, successor.next().to_string())
                     }
                     RowFault::NoDistribution(fault) => at().refuse(fault.expected, fault.sum),
                 })?;
                 if judgement != Judgement::FINE {
                     widened.get_or_insert((0, at())).0 += 1;
                 }
-                let content = rows.row(0);
-                assembly.push(state as StateId, hash_row(content), content, None).map_err(
-                    |error| match error {
+                let content = rows.row(RowId(0));
+                assembly.push(StateId(state as u32), hash_row(content), content, None).map_err(|error| {
+                    match error {
                         AssemblyError::Memory(error) => ImportError::Memory(error),
                         AssemblyError::TooManyRows => at().refuse(AssemblyError::at_most(), "one more"),
-                    },
-                )?;
+                    }
+                })?;
             }
         }
         let mut transitions = assembly.finish();

@@ -1,7 +1,7 @@
 //! Writing IntervalMDP.jl's files.
 
 use crate::formats::bmdp::padded_choices;
-use crate::model::{IntervalMdp, ModelKind, StateId, StateSet};
+use crate::model::{IntervalMdp, ModelKind, RowId, StateId, StateSet};
 use hdf5_pure::{AttrValue, FileBuilder};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -33,7 +33,7 @@ impl<'a> NetcdfWriter<'a> {
     /// # Errors
     /// [`NetcdfError`] if it is too large.
     pub fn new(model: &'a IntervalMdp) -> Result<Self, NetcdfError> {
-        let states = 0..model.num_states() as StateId;
+        let states = StateId::first(model.num_states());
         let actions = states.map(|state| model.choices().num_choices_of(state)).max().unwrap_or(0).max(1);
         let writer = Self { model, actions };
         let entries =
@@ -44,8 +44,8 @@ impl<'a> NetcdfWriter<'a> {
         }
     }
 
-    fn columns(&self) -> impl Iterator<Item = Option<u32>> + '_ {
-        (0..self.model.num_states() as StateId)
+    fn columns(&self) -> impl Iterator<Item = Option<RowId>> + '_ {
+        StateId::first(self.model.num_states())
             .flat_map(|state| padded_choices(self.model, state, self.actions))
     }
 
@@ -57,16 +57,16 @@ impl<'a> NetcdfWriter<'a> {
         let model = self.model;
         let is_chain = model.kind() == ModelKind::Idtmc;
         let (mut starts, mut successors, mut lower, mut upper) = (vec![1], vec![], vec![], vec![]);
-        for state in 0..model.num_states() as StateId {
+        for state in StateId::first(model.num_states()) {
             for row in padded_choices(model, state, self.actions) {
                 match row.map(|row| model.rows().row(row)) {
                     Some(row) => {
-                        successors.extend(row.successors.iter().map(|&s| s as i32 + 1));
+                        successors.extend(row.successors.iter().map(|&s| s.0 as i32 + 1));
                         lower.extend_from_slice(row.lower);
                         upper.extend_from_slice(row.upper);
                     }
                     None => {
-                        successors.push(state as i32 + 1);
+                        successors.push(state.0 as i32 + 1);
                         lower.push(1.0);
                         upper.push(1.0);
                     }

@@ -54,7 +54,7 @@ impl RowStates {
         let used = used_rows(model);
         let count = used.iter().filter(|&&used| used).count();
         // Every row becomes two, and ids must stay below the largest number.
-        if states.max(count) + count >= StateId::MAX as usize {
+        if states.max(count) + count >= StateId::MAX.index() {
             return Err(EncodingError::TooLarge { states, rows: count });
         }
         let ranges = model.choices().num_ranges() + count;
@@ -62,10 +62,10 @@ impl RowStates {
         let bytes = 20 * (model.rows().num_entries() + 2 * count) + 16 * ranges + 48 * (states + count);
         require_memory("the model with row states", bytes as u64)?;
         let mut new_ids = Vec::with_capacity(used.len());
-        let mut next: RowId = 0;
+        let mut next = RowId(0);
         for &used in &used {
             new_ids.push(next);
-            next += RowId::from(used);
+            next.0 += u32::from(used);
         }
         let all = states + count;
         let label = fresh_label(model);
@@ -91,9 +91,9 @@ impl RowStates {
 
 fn used_rows(model: &IntervalMdp) -> Vec<bool> {
     let mut used = vec![false; model.rows().len()];
-    for state in 0..model.num_states() as StateId {
+    for state in StateId::first(model.num_states()) {
         for range in model.choices().ranges(state) {
-            used[range.first as usize..=range.last as usize].fill(true);
+            used[range.first.index()..=range.last.index()].fill(true);
         }
     }
     used
@@ -118,7 +118,7 @@ fn rows(model: &IntervalMdp, used: &[bool], count: usize) -> Rows {
     let mut rows = Rows::with_capacity(2 * count, model.rows().num_entries() + count);
     let states = model.num_states();
     for state in states..states + count {
-        rows.push_entry(state as StateId, 1.0, 1.0);
+        rows.push_entry(StateId::from_index(state), 1.0, 1.0);
         rows.finish_row();
     }
     for (row, _) in model.rows().iter().zip(used).filter(|(_, used)| **used) {
@@ -130,19 +130,19 @@ fn rows(model: &IntervalMdp, used: &[bool], count: usize) -> Rows {
 fn choices(model: &IntervalMdp, new_ids: &[RowId], count: usize) -> crate::model::Choices {
     let states = model.num_states();
     let mut choices = ChoicesBuilder::with_capacity(states + count);
-    for state in 0..states as StateId {
+    for state in StateId::first(states) {
         if model.choices().is_absorbing(state) {
             choices.push_absorbing();
             continue;
         }
         for range in model.choices().ranges(state) {
-            let [first, last] = [range.first, range.last].map(|row| new_ids[row as usize]);
+            let [first, last] = [range.first, range.last].map(|row| new_ids[row.index()]);
             choices.push_range(RowRange { first, last });
         }
         choices.finish_state();
     }
     for row in count..2 * count {
-        choices.push_range(RowRange { first: row as RowId, last: row as RowId });
+        choices.push_range(RowRange { first: RowId::from_index(row), last: RowId::from_index(row) });
         choices.finish_state();
     }
     choices.finish()
@@ -160,11 +160,11 @@ fn actions(model: &IntervalMdp, new_ids: &[RowId], used: &[bool], count: usize) 
             let named = used.iter().enumerate().filter(|(_, used)| **used);
             let names = named.map(|(row, _)| format!("a_{row}")).collect();
             let mut ids = Vec::with_capacity(model.size().choices as usize + count);
-            for state in 0..model.num_states() as StateId {
+            for state in StateId::first(model.num_states()) {
                 if model.choices().is_absorbing(state) {
                     ids.push(ActionNames::UNNAMED);
                 }
-                ids.extend(model.choices().rows(state).map(|row| new_ids[row as usize]));
+                ids.extend(model.choices().rows(state).map(|row| new_ids[row.index()].0));
             }
             ids.extend(of_rows);
             ActionNames::OfChoice { names, ids }

@@ -1,8 +1,8 @@
 //! State formulas and queries on a model of four states.
 
 use crate::model::{
-    ActionNames, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowRange, Rows, StateSet,
-    StateVariables, VariableValues,
+    ActionNames, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowId, RowRange, Rows, StateId,
+    StateSet, StateVariables, VariableValues,
 };
 use crate::numeric::from_dyadic;
 use crate::property::{Property, PropertyError, Query, QueryKind, Resolution};
@@ -18,14 +18,14 @@ fn set(states: &[usize]) -> StateSet {
 /// State 0 moves to 1 or 2, state 1 anywhere; 2 is absorbing and 3 is a deadlock.
 fn model(labels: &[(&str, &[usize])]) -> IntervalMdp {
     let mut rows = Rows::new();
-    rows.push_entry(1, 0.1, 0.9);
-    rows.push_entry(2, 0.1, 0.9);
+    rows.push_entry(StateId(1), 0.1, 0.9);
+    rows.push_entry(StateId(2), 0.1, 0.9);
     rows.finish_row();
-    (0..4).for_each(|state| rows.push_entry(state, 0.0, 1.0));
+    (0..4).for_each(|state| rows.push_entry(StateId(state), 0.0, 1.0));
     rows.finish_row();
     let mut choices = ChoicesBuilder::with_capacity(4);
     for row in 0..2 {
-        choices.push_range(RowRange { first: row, last: row });
+        choices.push_range(RowRange { first: RowId(row), last: RowId(row) });
         choices.finish_state();
     }
     choices.push_absorbing();

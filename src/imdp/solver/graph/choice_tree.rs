@@ -30,10 +30,10 @@ impl ChoiceTree {
     /// The tree for the ranges of the states that `include` names.
     pub(crate) fn new(rows: usize, choices: &Choices, include: impl Fn(StateId) -> bool) -> Self {
         let mut nodes = Lists { starts: vec![0], items: vec![] };
-        for state in 0..choices.num_states() as StateId {
+        for state in StateId::first(choices.num_states()) {
             if include(state) {
                 for range in choices.ranges(state) {
-                    cover(rows, range.first as usize, range.last as usize, &mut nodes.items);
+                    cover(rows, range.first.index(), range.last.index(), &mut nodes.items);
                 }
             }
             nodes.starts.push(nodes.items.len());
@@ -56,7 +56,7 @@ impl ChoiceTree {
 
     /// The nodes that cover the choices of a state.
     pub(crate) fn cover(&self, state: StateId) -> &[u32] {
-        self.nodes.get(state as usize)
+        self.nodes.get(state.index())
     }
 
     /// Starts to collect rows.
@@ -82,7 +82,7 @@ pub(in crate::solver) struct Collector<'a> {
 impl Collector<'_> {
     /// Collects a row, once; calls `found` for the states that are complete now (perhaps repeatedly).
     pub(crate) fn add(&mut self, row: RowId, mut found: impl FnMut(StateId)) {
-        let leaf = self.tree.rows + row as usize;
+        let leaf = self.tree.rows + row.index();
         let mut node = leaf;
         while node > 0 {
             self.seen[node] += 1;
@@ -95,11 +95,11 @@ impl Collector<'_> {
             }
             for &state in self.tree.states.get(node) {
                 match self.policy {
-                    Direction::Max => found(state),
+                    Direction::Max => found(StateId(state)),
                     Direction::Min => {
                         self.needed[state as usize] -= 1;
                         if self.needed[state as usize] == 0 {
-                            found(state);
+                            found(StateId(state));
                         }
                     }
                 }

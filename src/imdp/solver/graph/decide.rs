@@ -54,7 +54,7 @@ pub(in crate::solver) fn possible_within(
     inside: impl Fn(u32) -> bool + Clone,
 ) -> bool {
     let itself = row.successors[position];
-    row.upper[position] > 0.0 && !lower_covers_one(row, move |s| inside(s) && s != itself)
+    row.upper[position] > 0.0 && !lower_covers_one(row, move |s| inside(s.0) && s != itself)
 }
 
 #[cfg(test)]
@@ -64,7 +64,7 @@ mod tests {
     use crate::numeric::Exact;
 
     fn compared(bounds: &[f64], exact: &[ExactBound]) -> Ordering {
-        let successors: Vec<StateId> = (0..bounds.len() as StateId).collect();
+        let successors: Vec<StateId> = StateId::first(bounds.len()).collect();
         let row = Row { successors: &successors, lower: bounds, upper: bounds, exact };
         compare_with_one(row, End::Upper, |_| true)
     }

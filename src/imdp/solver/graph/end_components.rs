@@ -25,14 +25,14 @@ pub(in crate::solver) fn end_components(part: &Candidates<'_>) -> Vec<Vec<u32>> 
     while let Some(class) = open.pop() {
         next += 1;
         for &position in &class {
-            label[part.states[position as usize] as usize] = next;
+            label[part.states[position as usize].index()] = next;
         }
         let refined = part.refine(&class, &label, next);
         if refined.len() == 1 && refined[0].len() == class.len() {
             closed.extend(refined);
         } else {
             // Whatever is not in a refined class has left for good.
-            class.iter().for_each(|&position| label[part.states[position as usize] as usize] = 0);
+            class.iter().for_each(|&position| label[part.states[position as usize].index()] = 0);
             open.extend(refined);
         }
     }
@@ -42,7 +42,7 @@ pub(in crate::solver) fn end_components(part: &Candidates<'_>) -> Vec<Vec<u32>> 
 impl Candidates<'_> {
     /// The strong components of a class under the rows that can stay in it, less states without such rows.
     fn refine(&self, class: &[u32], label: &[u32], own: u32) -> Vec<Vec<u32>> {
-        let inside = |s: StateId| label[s as usize] == own;
+        let inside = |s: StateId| label[s.index()] == own;
         let mut stays: Vec<Option<bool>> = vec![None; self.rows.len()];
         let mut position_of = std::collections::HashMap::new();
         class.iter().for_each(|&position| {

@@ -22,13 +22,13 @@ pub(in crate::solver) fn ranks(
 ) -> Vec<(StateId, u32)> {
     let mut outside = StateSet::with_capacity(lower.len());
     (0..lower.len()).filter(|&s| !moving.contains(s) || lower[s] == 0.0).for_each(|s| outside.insert(s));
-    let open = |s: StateId| !outside.contains(s as usize);
+    let open = |s: StateId| !outside.contains(s.index());
     let tree = match players.policy {
         Direction::Min => ChoiceTree::new(model.rows().len(), model.choices(), open),
         Direction::Max => {
             let mut chosen = ChoicesBuilder::with_capacity(lower.len());
-            for state in 0..lower.len() as StateId {
-                let row = model.choices().row_of_choice(state, choices[state as usize]);
+            for state in StateId::first(lower.len()) {
+                let row = model.choices().row_of_choice(state, choices[state.index()]);
                 row.into_iter().for_each(|row| chosen.push_range(RowRange { first: row, last: row }));
                 chosen.finish_state();
             }

@@ -34,7 +34,7 @@ pub(in crate::solver) fn zero_one(
     players: Players,
 ) -> ZeroOne {
     let rows = model.rows().len();
-    let tree = ChoiceTree::new(rows, model.choices(), |s| moving.contains(s as usize));
+    let tree = ChoiceTree::new(rows, model.choices(), |s| moving.contains(s.index()));
     let analysis = Analysis::new(model.rows(), goal, players, &tree);
     let mut allowed = StateSet::with_capacity(rows);
     allowed.insert_range(..);
@@ -42,15 +42,17 @@ pub(in crate::solver) fn zero_one(
     let mut choices = vec![NO_CHOICE; model.num_states()];
     if players.policy == Direction::Min {
         for s in moving.difference(&positive) {
-            let stays = |row: RowId| !made_it.contains(row as usize);
-            choices[s] = first_choice(model.choices(), s as StateId, stays).unwrap_or(NO_CHOICE);
+            let stays = |row: RowId| !made_it.contains(row.index());
+            choices[s] = first_choice(model.choices(), StateId::from_index(s), stays).unwrap_or(NO_CHOICE);
         }
     }
     let mut certain = positive.clone();
     loop {
         for row in 0..rows {
             let keep = allowed.contains(row)
-                && stays(model.rows().row(row as RowId), players.nature, |s| certain.contains(s as usize));
+                && stays(model.rows().row(RowId::from_index(row)), players.nature, |s| {
+                    certain.contains(s.index())
+                });
             allowed.set(row, keep);
         }
         let (next, _) = analysis.attract(&allowed);
@@ -62,7 +64,7 @@ pub(in crate::solver) fn zero_one(
     if players.policy == Direction::Max {
         analysis.attract_with(&allowed, |state, row| {
             let choice = first_choice(model.choices(), state, |other| other == row);
-            choices[state as usize] = choice.unwrap_or(NO_CHOICE);
+            choices[state.index()] = choice.unwrap_or(NO_CHOICE);
         });
     }
     ZeroOne { positive, certain, choices }
@@ -117,10 +119,10 @@ impl<'a> Analysis<'a> {
         };
         let mut outside: Vec<f64> =
             rows.iter().map(|row| (0..row.len()).map(|i| bounds(row, i)).sum()).collect();
-        let mut work: Vec<StateId> = self.goal.ones().map(|s| s as StateId).collect();
+        let mut work: Vec<StateId> = self.goal.ones().map(StateId::from_index).collect();
         while let Some(state) = work.pop() {
             for &id in self.predecessors.get(state) {
-                let index = id as usize;
+                let index = id.index();
                 if done.contains(index) || !allowed.contains(index) {
                     continue;
                 }
@@ -132,8 +134,8 @@ impl<'a> Analysis<'a> {
                 }
                 done.insert(index);
                 collector.add(id, |found| {
-                    if !reached.contains(found as usize) {
-                        reached.insert(found as usize);
+                    if !reached.contains(found.index()) {
+                        reached.insert(found.index());
                         joined(found, id);
                         work.push(found);
                     }
@@ -148,7 +150,7 @@ impl<'a> Analysis<'a> {
         if self.players.nature == Direction::Min && row.lower[i] > 0.0 {
             return true;
         }
-        let inside = |j: &usize| reached.contains(row.successors[*j] as usize);
+        let inside = |j: &usize| reached.contains(row.successors[*j].index());
         if outside > 1.0 + margin(row.len()) {
             return false;
         }
@@ -170,22 +172,22 @@ impl Predecessors {
     fn new(all: &Rows, states: usize) -> Self {
         let mut starts = vec![0; states + 1];
         for row in all.iter() {
-            row.successors.iter().for_each(|&s| starts[s as usize + 1] += 1);
+            row.successors.iter().for_each(|&s| starts[s.index() + 1] += 1);
         }
         for state in 0..states {
             starts[state + 1] += starts[state];
         }
-        let (mut next, mut rows) = (starts.clone(), vec![0; all.num_entries()]);
-        for (id, row) in (0..).zip(all.iter()) {
+        let (mut next, mut rows) = (starts.clone(), vec![RowId(0); all.num_entries()]);
+        for (id, row) in RowId::first(all.len()).zip(all.iter()) {
             for &s in row.successors {
-                rows[next[s as usize]] = id;
-                next[s as usize] += 1;
+                rows[next[s.index()]] = id;
+                next[s.index()] += 1;
             }
         }
         Self { starts, rows }
     }
 
     fn get(&self, state: StateId) -> &[RowId] {
-        &self.rows[self.starts[state as usize]..self.starts[state as usize + 1]]
+        &self.rows[self.starts[state.index()]..self.starts[state.index() + 1]]
     }
 }

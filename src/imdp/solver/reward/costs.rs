@@ -31,7 +31,7 @@ pub(super) fn written(value: f64, side: Bound) -> f64 {
 
 /// What a choice earns in a state, whatever comes of it.
 pub(super) fn of_choice(rewards: &RewardStructure, state: StateId, choice: u64, side: Bound) -> f64 {
-    let (state, choice) = (rewards.of_state(state as usize), rewards.of_choice(choice));
+    let (state, choice) = (rewards.of_state(state.index()), rewards.of_choice(choice));
     let exact = state.fract() == 0.0 && choice.fract() == 0.0 && state + choice < EXACT;
     if exact { state + choice } else { sum(written(state, side), written(choice, side), side) }
 }

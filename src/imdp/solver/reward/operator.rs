@@ -50,9 +50,9 @@ impl Operator {
                 if !usable(row) {
                     continue;
                 }
-                let choice = first_choices[state as usize] + u64::from(number);
+                let choice = first_choices[state.index()] + u64::from(number);
                 let of_branches = rewards.and_then(|rewards| rewards.branches.get(&choice));
-                let local = match (of_branches, shared[row as usize]) {
+                let local = match (of_branches, shared[row.index()]) {
                     (None, Some(local)) => local,
                     _ => {
                         let source = model.rows().row(row);
@@ -62,14 +62,14 @@ impl Operator {
                                 None => successor,
                                 Some(reward) => {
                                     branches.push((successor, reward));
-                                    (model_states + branches.len() - 1) as StateId
+                                    StateId::from_index(model_states + branches.len() - 1)
                                 }
                             };
                             rows.push_entry(successor, source.lower[position], upper);
                         }
                         let local = rows.finish_row();
                         if of_branches.is_none() {
-                            shared[row as usize] = Some(local);
+                            shared[row.index()] = Some(local);
                         }
                         local
                     }
@@ -83,7 +83,7 @@ impl Operator {
             }
             choices.push(own);
         }
-        let block = RowBlock::new(&rows, (0..rows.len() as RowId).collect());
+        let block = RowBlock::new(&rows, RowId::first(rows.len()).collect());
         Self { states, players, choices, rows, block, model_states, branches }
     }
 
@@ -102,7 +102,7 @@ impl Operator {
             extended = values.to_vec();
             debug_assert_eq!(extended.len(), self.model_states);
             extended.extend(self.branches.iter().map(|&(state, reward)| {
-                costs::sum(values[state as usize], costs::written(reward, side), side)
+                costs::sum(values[state.index()], costs::written(reward, side), side)
             }));
             all = &extended;
         }
@@ -112,7 +112,7 @@ impl Operator {
         for choices in &self.choices {
             let mut best: Option<(f64, u32)> = None;
             for choice in choices {
-                let weight = discounted(weights[choice.row as usize], discount, side);
+                let weight = discounted(weights[choice.row.index()], discount, side);
                 let value = costs::sum(choice.cost[usize::from(side == Bound::Upper)], weight, side);
                 let better = best.is_none_or(|(old, _)| if maximises { value > old } else { value < old });
                 if better {

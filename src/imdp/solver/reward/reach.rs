@@ -21,18 +21,18 @@ pub(super) fn reach(
     options: &SolverOptions<'_>,
 ) -> Solution {
     let states = model.num_states();
-    let has_rows = |s: &usize| !model.choices().ranges(*s as StateId).is_empty();
+    let has_rows = |s: &usize| !model.choices().ranges(StateId::from_index(*s)).is_empty();
     let mut moving = StateSet::with_capacity(states);
     (0..states).filter(|&s| !goal.contains(s)).filter(has_rows).for_each(|s| moving.insert(s));
     // Who wants little reward wants the goal to be met.
     let willing = Players { policy: players.policy.flipped(), nature: players.nature.flipped() };
     let finite = zero_one(model, goal, &moving, willing).certain;
-    let inside = |s: StateId| finite.contains(s as usize);
-    let usable: Vec<bool> = (0..model.rows().len() as RowId)
+    let inside = |s: StateId| finite.contains(s.index());
+    let usable: Vec<bool> = RowId::first(model.rows().len())
         .map(|row| players.policy == Direction::Max || stays(model.rows().row(row), willing.nature, inside))
         .collect();
-    let usable = |row: RowId| usable[row as usize];
-    let open: Vec<StateId> = finite.ones().filter(|&s| moving.contains(s)).map(|s| s as StateId).collect();
+    let usable = |row: RowId| usable[row.index()];
+    let open: Vec<StateId> = finite.ones().filter(|&s| moving.contains(s)).map(StateId::from_index).collect();
     let operator = |rewards| Operator::new(model, rewards, players, open.clone(), (&usable, &inside));
     let mut iteration = Iteration {
         steps: operator(None),
@@ -78,14 +78,14 @@ impl Iteration<'_> {
         let steps = match self.expected_steps() {
             Ok(steps) => steps,
             Err(reason) => {
-                states.iter().for_each(|&s| self.upper[s as usize] = f64::INFINITY);
+                states.iter().for_each(|&s| self.upper[s.index()] = f64::INFINITY);
                 return reason;
             }
         };
-        let longest = states.iter().map(|&s| steps[s as usize]).fold(1.0, f64::max);
+        let longest = states.iter().map(|&s| steps[s.index()]).fold(1.0, f64::max);
         let largest = self.operator.largest_cost();
         for &s in &states {
-            self.upper[s as usize] = (largest * steps[s as usize]).next_up();
+            self.upper[s.index()] = (largest * steps[s.index()]).next_up();
         }
         let mut next_jump = 4;
         for sweep in 1u64.. {
@@ -124,10 +124,10 @@ impl Iteration<'_> {
             let (results, chosen) = self.steps.apply(&steps, 1.0, Bound::Upper);
             let mut growth: f64 = 0.0;
             for ((&s, value), choice) in self.steps.states.iter().zip(results).zip(chosen) {
-                growth = growth.max(value - steps[s as usize]);
-                steps[s as usize] = steps[s as usize].max(value);
+                growth = growth.max(value - steps[s.index()]);
+                steps[s.index()] = steps[s.index()].max(value);
                 // Choices that are made for few steps lead to the goal.
-                self.choices[s as usize] = choice;
+                self.choices[s.index()] = choice;
             }
             self.control.done(f64::INFINITY);
             if growth <= 0.45 {
@@ -142,23 +142,23 @@ impl Iteration<'_> {
         let mut changed = false;
         let (results, chosen) = self.operator.apply(&self.lower, 1.0, Bound::Lower);
         for (i, &s) in self.operator.states.iter().enumerate() {
-            let value = &mut self.lower[s as usize];
+            let value = &mut self.lower[s.index()];
             if results[i] > *value {
                 changed = true;
                 *value = results[i];
                 if self.maximises {
-                    self.choices[s as usize] = chosen[i];
+                    self.choices[s.index()] = chosen[i];
                 }
             }
         }
         let (results, chosen) = self.operator.apply(&self.upper, 1.0, Bound::Upper);
         for (i, &s) in self.operator.states.iter().enumerate() {
-            let value = &mut self.upper[s as usize];
+            let value = &mut self.upper[s.index()];
             if results[i] < *value {
                 changed = true;
-                *value = results[i].max(self.lower[s as usize]);
+                *value = results[i].max(self.lower[s.index()]);
                 if !self.maximises {
-                    self.choices[s as usize] = chosen[i];
+                    self.choices[s.index()] = chosen[i];
                 }
             }
         }
@@ -168,7 +168,7 @@ impl Iteration<'_> {
     /// How far apart the bounds are, relative to what is above 1.
     fn gap(&self) -> f64 {
         let gap = |&s: &StateId| {
-            let (lower, upper) = (self.lower[s as usize], self.upper[s as usize]);
+            let (lower, upper) = (self.lower[s.index()], self.upper[s.index()]);
             (upper - lower) / lower.max(1.0)
         };
         self.operator.states.iter().map(gap).fold(0.0, f64::max)
@@ -177,36 +177,36 @@ impl Iteration<'_> {
     /// Tries bounds that are close to those on the other side; returns whether one of them holds.
     fn jump(&mut self, steps: &[f64], margin: f64) -> bool {
         let states = self.operator.states.clone();
-        let scale = states.iter().map(|&s| self.lower[s as usize]).fold(1.0, f64::max);
+        let scale = states.iter().map(|&s| self.lower[s.index()]).fold(1.0, f64::max);
         let margin = margin * scale;
         let mut candidate = self.upper.clone();
         for &s in &states {
-            let s = s as usize;
+            let s = s.index();
             candidate[s] = (self.lower[s] + margin * steps[s]).next_up();
         }
         let (results, chosen) = self.operator.apply(&candidate, 1.0, Bound::Upper);
         let mut jumped = false;
-        if states.iter().zip(&results).all(|(&s, value)| *value < candidate[s as usize]) {
+        if states.iter().zip(&results).all(|(&s, value)| *value < candidate[s.index()]) {
             for (i, &s) in states.iter().enumerate() {
-                if results[i] < self.upper[s as usize] {
+                if results[i] < self.upper[s.index()] {
                     jumped = true;
-                    self.upper[s as usize] = results[i].max(self.lower[s as usize]);
+                    self.upper[s.index()] = results[i].max(self.lower[s.index()]);
                     if !self.maximises {
-                        self.choices[s as usize] = chosen[i];
+                        self.choices[s.index()] = chosen[i];
                     }
                 }
             }
         }
         let mut candidate = self.lower.clone();
         for &s in &states {
-            let s = s as usize;
+            let s = s.index();
             candidate[s] = (self.upper[s] - margin * steps[s]).max(self.lower[s]);
         }
         for _ in 0..REPAIRS {
             let (results, chosen) = self.operator.apply(&candidate, 1.0, Bound::Lower);
             let mut holds = true;
             for (&s, &value) in states.iter().zip(&results) {
-                let s = s as usize;
+                let s = s.index();
                 if value < candidate[s] {
                     holds = false;
                     candidate[s] = value;
@@ -216,12 +216,12 @@ impl Iteration<'_> {
                 continue;
             }
             for (i, &s) in states.iter().enumerate() {
-                let value = candidate[s as usize];
-                if value > self.lower[s as usize] {
+                let value = candidate[s.index()];
+                if value > self.lower[s.index()] {
                     jumped = true;
-                    self.lower[s as usize] = value.min(self.upper[s as usize]);
+                    self.lower[s.index()] = value.min(self.upper[s.index()]);
                     if self.maximises {
-                        self.choices[s as usize] = chosen[i];
+                        self.choices[s.index()] = chosen[i];
                     }
                 }
             }

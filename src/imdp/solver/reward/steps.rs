@@ -45,8 +45,8 @@ pub(super) fn cumulative(
         let chosen = iteration.step(&mut lower, discount, Bound::Lower);
         iteration.step(&mut upper, discount, Bound::Upper);
         for (&s, choice) in iteration.operator.states.iter().zip(chosen) {
-            if current[s as usize] != choice {
-                current[s as usize] = choice;
+            if current[s.index()] != choice {
+                current[s.index()] = choice;
                 changes.push((s, control.iterations + 1, choice));
             }
         }
@@ -115,7 +115,7 @@ struct Iteration<'a> {
 impl<'a> Iteration<'a> {
     fn new(model: &'a IntervalMdp, rewards: Option<&'a RewardStructure>, players: Players) -> Self {
         let moves = |s: &StateId| !model.choices().ranges(*s).is_empty();
-        let all = 0..model.num_states() as StateId;
+        let all = StateId::first(model.num_states());
         let (states, staying): (Vec<StateId>, Vec<StateId>) = all.partition(moves);
         let nothing = RewardStructure::default();
         let operator =
@@ -124,9 +124,9 @@ impl<'a> Iteration<'a> {
         let of_state = |s: StateId| {
             let earned = |side| match (rewards, model.choices().is_absorbing(s)) {
                 (None, _) => 0.0,
-                (Some(rewards), true) => costs::of_choice(rewards, s, first_choices[s as usize], side),
+                (Some(rewards), true) => costs::of_choice(rewards, s, first_choices[s.index()], side),
                 // Without a choice only the state earns something.
-                (Some(rewards), false) => costs::written(rewards.of_state(s as usize), side),
+                (Some(rewards), false) => costs::written(rewards.of_state(s.index()), side),
             };
             (s, [Bound::Lower, Bound::Upper].map(earned))
         };
@@ -148,14 +148,14 @@ impl<'a> Iteration<'a> {
     fn step(&mut self, values: &mut [f64], discount: f64, side: Bound) -> Vec<u32> {
         let (results, chosen) = self.operator.apply(values, discount, side);
         for (s, earned) in &self.staying {
-            let value = &mut values[*s as usize];
+            let value = &mut values[s.index()];
             *value = costs::sum(
                 earned[usize::from(side == Bound::Upper)],
                 discounted(*value, discount, side),
                 side,
             );
         }
-        self.operator.states.iter().zip(results).for_each(|(&s, value)| values[s as usize] = value);
+        self.operator.states.iter().zip(results).for_each(|(&s, value)| values[s.index()] = value);
         chosen
     }
 }

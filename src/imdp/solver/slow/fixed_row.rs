@@ -101,6 +101,7 @@ mod tests {
     use super::super::fixed::to_rational;
     use super::*;
     use crate::exact::{ExactRow, ExactValues, Nature, Replaced};
+    use crate::model::StateId;
     use crate::numeric::{Rational, from_decimal};
     use proptest::prelude::*;
 
@@ -114,7 +115,7 @@ mod tests {
             let third = |n: u32| f64::from(n / size) / 1000.0;
             let lower: Vec<f64> = entries.iter().map(|e| third(e.0)).collect();
             let upper: Vec<f64> = entries.iter().zip(&lower).map(|(e, l)| (l + f64::from(e.1) / 1000.0).min(1.0)).collect();
-            let successors: Vec<u32> = (0..size).collect();
+            let successors: Vec<StateId> = StateId::first(entries.len()).collect();
             let row = Row { successors: &successors, lower: &lower, upper: &upper, exact: &[] };
             let total: Rational = upper.iter().map(|&u| from_decimal(u).unwrap()).sum();
             prop_assume!(total >= from_decimal(1.0).unwrap());
@@ -122,7 +123,7 @@ mod tests {
             let fixed: Vec<u128> = doubles.iter().map(|&x| super::super::fixed::floor_f64(x)).collect();
             prop_assume!(doubles.iter().zip(&fixed).all(|(&x, &f)| super::super::fixed::to_f64_down(f) == x));
             let exact = ExactRow::new(row).unwrap();
-            let fixed_row = FixedRow::new(row, successors.clone()).unwrap();
+            let fixed_row = FixedRow::new(row, (0..size).collect()).unwrap();
             for (nature, optimum) in [(Nature::Min, Direction::Min), (Nature::Max, Direction::Max)] {
                 let value = exact.expectation(&successors, &ExactValues::with(&doubles, &Replaced::new()), nature);
                 let value = Rational::new(value.numer().clone(), value.denom().clone());

@@ -77,7 +77,7 @@ impl Component<'_, '_> {
         for (i, &s) in self.sweep.states.iter().enumerate() {
             let value = values[part.node(i)];
             let (below, above) = (fixed::to_f64_down(value), fixed::to_f64_up(value));
-            doubles[s as usize] = if side == Bound::Lower { below } else { above };
+            doubles[s.index()] = if side == Bound::Lower { below } else { above };
             if below < above {
                 precise.insert(s, value);
             }
@@ -85,7 +85,7 @@ impl Component<'_, '_> {
         let attained = if side == Bound::Lower { Direction::Max } else { Direction::Min };
         if shared.wants_policy && shared.players.policy == attained {
             for (i, &s) in self.sweep.states.iter().enumerate() {
-                shared.choices[s as usize] = part.choice(i, &strategy);
+                shared.choices[s.index()] = part.choice(i, &strategy);
             }
         }
         true

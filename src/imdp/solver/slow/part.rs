@@ -149,13 +149,13 @@ impl Collector<'_, '_, '_> {
             return Some(index);
         }
         let shared = &*self.component.shared;
-        let row = if shared.own_rows.contains(id as usize) {
+        let row = if shared.own_rows.contains(id.index()) {
             let row = shared.model.rows().row(id);
             let targets = row.successors.iter().map(|&s| self.target(s)).collect();
             FixedRow::new(row, targets)?
         } else {
             let table = if self.side == Bound::Lower { &shared.lower_rows } else { &shared.upper_rows };
-            let value = self.fixed(table.values()[id as usize]);
+            let value = self.fixed(table.values()[id.index()]);
             self.outside.push(value);
             FixedRow::certain(self.count + self.outside.len() as u32 - 1)
         };
@@ -172,8 +172,8 @@ impl Collector<'_, '_, '_> {
         }
         let shared = &*self.component.shared;
         let value = match self.side {
-            Bound::Lower => shared.lower[state as usize],
-            Bound::Upper => shared.upper[state as usize],
+            Bound::Lower => shared.lower[state.index()],
+            Bound::Upper => shared.upper[state.index()],
         };
         let value = self.fixed(value);
         *self.outside_of.entry(state).or_insert_with(|| {

@@ -5,7 +5,7 @@ use super::super::unbounded::until_with_patience;
 use super::super::{Solution, SolverOptions};
 use crate::certificate::{Certificate, FileDigest};
 use crate::model::{
-    ActionNames, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowRange, Rows, StateSet,
+    ActionNames, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowRange, Rows, StateId, StateSet,
     StateVariables,
 };
 use crate::property::{Property, Resolution};
@@ -30,10 +30,14 @@ fn model(states: &[Vec<Weights>], exit: f64) -> IntervalMdp {
             }
             // Room for the exits.
             for (s, &(lower, upper)) in masses.iter().enumerate().filter(|(_, m)| m.1 > 0.0) {
-                rows.push_entry(s as u32, lower * (1.0 - 4.0 * exit), upper.min(1.0));
+                rows.push_entry(StateId(s as u32), lower * (1.0 - 4.0 * exit), upper.min(1.0));
             }
-            rows.push_entry(STATES as u32, if weights.len() % 2 == 0 { exit } else { 0.0 }, 2.0 * exit);
-            rows.push_entry(STATES as u32 + 1, 0.0, exit * f64::from(total));
+            rows.push_entry(
+                StateId(STATES as u32),
+                if weights.len() % 2 == 0 { exit } else { 0.0 },
+                2.0 * exit,
+            );
+            rows.push_entry(StateId(STATES as u32 + 1), 0.0, exit * f64::from(total));
             let id = rows.finish_row();
             choices.push_range(RowRange { first: id, last: id });
         }

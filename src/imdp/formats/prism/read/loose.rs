@@ -61,12 +61,12 @@ fn read_line(
     header: TransitionHeader,
     transitions: &mut LooseTransitions,
 ) -> Result<(), Box<Fault>> {
-    let state = fields.number("a state", header.states)? as StateId;
+    let state = StateId(fields.number("a state", header.states)? as u32);
     let choice = match header.kind {
         ModelKind::Imdp => fields.number("the number of a choice", u64::MAX)?,
         ModelKind::Idtmc => 0,
     };
-    let successor = fields.number("a destination", header.states)? as StateId;
+    let successor = StateId(fields.number("a destination", header.states)? as u32);
     let interval = fields.next("a probability or an interval")?;
     let action = match fields.last("the end of the line")? {
         None => None,

@@ -6,7 +6,7 @@ use crate::formats::import::{
     Cursor, Fault, Interval, Judgement, PendingRow, RowFault, describe, hash_row, read_interval,
     written_bounds,
 };
-use crate::model::{ActionNames, ModelKind, Row, Rows, StateId};
+use crate::model::{ActionNames, ModelKind, Row, RowId, Rows, StateId};
 
 /// What the header says about the lines.
 #[derive(Clone, Copy, Debug)]
@@ -136,7 +136,7 @@ impl<'a> Parser<'a> {
             let expected = format!("{what} below {}, the number of states", self.shape.states);
             return Err(self.cursor.fault_at(start, expected));
         }
-        Ok(state as StateId)
+        Ok(StateId(state as u32))
     }
 
     #[inline]
@@ -206,7 +206,7 @@ impl<'a> Parser<'a> {
 }
 
 fn last_row(rows: &Rows) -> Row<'_> {
-    rows.row(rows.len() as u32 - 1)
+    rows.row(RowId(rows.len() as u32 - 1))
 }
 
 /// The texts of the bounds in a line that has been parsed before, in its field number `field`.

@@ -32,14 +32,14 @@ pub(super) fn read_trew<R: BufRead>(
     let mut branches: BTreeMap<u64, Vec<f64>> = BTreeMap::new();
     let counts = if model.kind() == ModelKind::Imdp { 3..=3 } else { 2..=2 };
     read_lines(lines, structure, counts, |fields, _| {
-        let state = fields.number("a state", model.num_states() as u64)? as StateId;
+        let state = StateId(fields.number("a state", model.num_states() as u64)? as u32);
         let own = choices.num_choices_of(state) as u64;
         let number = match model.kind() {
             ModelKind::Imdp => fields.number("a choice of the state", own)?,
             ModelKind::Idtmc if own == 0 => return Err(fields.fault("a state with transitions")),
             ModelKind::Idtmc => 0,
         };
-        let destination = fields.number("a destination", model.num_states() as u64)? as StateId;
+        let destination = StateId(fields.number("a destination", model.num_states() as u64)? as u32);
         let row = choices.row_of_choice(state, number as u32).map(|row| model.rows().row(row));
         let (position, length) = match row {
             Some(row) => (row.successors.binary_search(&destination).ok(), row.len()),
@@ -48,7 +48,7 @@ pub(super) fn read_trew<R: BufRead>(
         };
         let position = position.ok_or_else(|| fields.fault("a destination of this choice"))?;
         let reward = read_reward(fields)?;
-        let of_choice = branches.entry(first_choices[state as usize] + number).or_default();
+        let of_choice = branches.entry(first_choices[state.index()] + number).or_default();
         of_choice.resize(length, 0.0);
         of_choice[position] = reward;
         Ok(())

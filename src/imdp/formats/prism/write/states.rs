@@ -15,7 +15,7 @@ pub fn write_sta(model: &IntervalMdp, out: &mut impl Write) -> io::Result<()> {
     let names: Vec<_> = variables.iter().map(|variable| variable.name.as_str()).collect();
     writeln!(out, "({})", if names.is_empty() { "s".to_owned() } else { names.join(",") })?;
     let mut line = String::new();
-    for state in 0..model.num_states() as StateId {
+    for state in StateId::first(model.num_states()) {
         line.clear();
         // Writing to a string cannot fail.
         let _ = write!(line, "{state}:(");

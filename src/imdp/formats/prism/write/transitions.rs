@@ -79,7 +79,7 @@ impl RowTexts {
     }
 
     fn entries(&self, row: RowId) -> impl Iterator<Item = &[u8]> {
-        let range = self.first_entry[row as usize]..self.first_entry[row as usize + 1];
+        let range = self.first_entry[row.index()]..self.first_entry[row.index() + 1];
         let mut start = self.start(range.start);
         range.map(move |entry| {
             let text = &self.text[start..self.ends[entry]];
@@ -94,7 +94,7 @@ impl RowTexts {
 
     /// The number of bytes of a row's texts.
     fn bytes(&self, row: RowId) -> u64 {
-        let (first, end) = (self.first_entry[row as usize], self.first_entry[row as usize + 1]);
+        let (first, end) = (self.first_entry[row.index()], self.first_entry[row.index() + 1]);
         (self.start(end) - self.start(first)) as u64
     }
 }
@@ -159,14 +159,14 @@ impl<'a> TraWriter<'a> {
     fn plan(&self) -> Vec<Chunk> {
         let mut chunks = Vec::new();
         let mut choice = 0;
-        let mut chunk = Chunk { states: 0..0, first_choice: 0, bytes: 0 };
-        for state in 0..self.model.num_states() as StateId {
+        let mut chunk = Chunk { states: StateId(0)..StateId(0), first_choice: 0, bytes: 0 };
+        for state in StateId::first(self.model.num_states()) {
             let (bytes, choices) = self.measure(state, choice);
             choice += choices;
             chunk.bytes += bytes;
-            chunk.states.end = state + 1;
+            chunk.states.end = state.next();
             if chunk.bytes >= CHUNK_BYTES {
-                let next = Chunk { states: state + 1..state + 1, first_choice: choice, bytes: 0 };
+                let next = Chunk { states: state.next()..state.next(), first_choice: choice, bytes: 0 };
                 chunks.push(std::mem::replace(&mut chunk, next));
             }
         }
@@ -198,7 +198,7 @@ impl<'a> TraWriter<'a> {
         out.clear();
         out.reserve(chunk.bytes as usize);
         let mut choice = chunk.first_choice;
-        for state in chunk.states.clone() {
+        for state in (chunk.states.start.0..chunk.states.end.0).map(StateId) {
             choice += self.render_state(state, choice, out);
         }
         debug_assert_eq!(out.len() as u64, chunk.bytes, "the planned size is exact");

@@ -9,7 +9,7 @@ use crate::formats::import::{
     Assembly, AssemblyError, Expected, ImportError, Interval, Judgement, PendingRow, Position, RowFault,
     Transitions, Warning, hash_row,
 };
-use crate::model::{Rows, StateId, StateSet};
+use crate::model::{RowId, Rows, StateId, StateSet};
 use crate::numeric::shortest_decimal;
 
 /// How many branches are read between two signs of life.
@@ -71,15 +71,15 @@ pub(super) fn read_transitions(
             if without_choices.is_some_and(|set| set.contains(state as usize)) {
                 continue;
             }
-            let content = rows.row(0);
-            assembly.push(state as StateId, hash_row(content), content, action).map_err(
-                |error| match error {
+            let content = rows.row(RowId(0));
+            assembly.push(StateId(state as u32), hash_row(content), content, action).map_err(|error| {
+                match error {
                     AssemblyError::Memory(error) => error.into(),
                     AssemblyError::TooManyRows => {
                         at_choice(member::CHOICE_TO_BRANCHES).refuse(AssemblyError::at_most(), "one more")
                     }
-                },
-            )?;
+                }
+            })?;
             if range.end - told > STRIDE {
                 told = range.end;
                 progress(told);
@@ -132,7 +132,7 @@ impl Branches {
             return Err(self.targets.refuse(expected, target.to_string()));
         }
         let Some(array) = &mut self.bounds else {
-            return Ok((target as StateId, 1.0, 1.0));
+            return Ok((StateId(target as u32), 1.0, 1.0));
         };
         let (mut lower, mut upper) = if self.intervals { array.next_pair()? } else { array.next_double()? };
         if let Some(zero) = self.zero_lower_bound.filter(|zero| *zero == lower) {
@@ -150,6 +150,6 @@ impl Branches {
             return Err(array.refuse(expected, shortest_decimal(upper)));
         }
         // There is a negative zero.
-        Ok((target as StateId, lower + 0.0, upper + 0.0))
+        Ok((StateId(target as u32), lower + 0.0, upper + 0.0))
     }
 }

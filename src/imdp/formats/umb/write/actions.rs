@@ -53,13 +53,13 @@ impl<'a> Actions<'a> {
         tar.member(members.values, 4 * writer.choices, |out| {
             let mut choice = 0usize;
             writer.for_each_choice(|state, row| {
-                let is_loop = row.is_none() && writer.deadlocks.contains(state as usize);
+                let is_loop = row.is_none() && writer.deadlocks.contains(state.index());
                 let id = match self.names {
                     _ if is_loop => None,
                     ActionNames::OfChoice { ids, .. } => {
                         Some(ids[choice]).filter(|&id| id != ActionNames::UNNAMED)
                     }
-                    _ => row,
+                    _ => row.map(|row| row.0),
                 };
                 choice += usize::from(!is_loop);
                 out.write_all(&id.unwrap_or(self.named).to_le_bytes())

@@ -76,12 +76,12 @@ impl RowBytes {
     }
 
     fn targets(&self, row: RowId) -> &[u8] {
-        let row = row as usize;
+        let row = row.index();
         &self.targets[8 * self.starts[row]..8 * self.starts[row + 1]]
     }
 
     fn bounds(&self, row: RowId) -> &[u8] {
-        let row = row as usize;
+        let row = row.index();
         &self.bounds[16 * self.starts[row]..16 * self.starts[row + 1]]
     }
 }
@@ -97,7 +97,7 @@ impl<'a> UmbWriter<'a> {
         NAMES.check_variables(model)?;
         let mut deadlocks = StateSet::with_capacity(model.num_states());
         let states = 0..model.num_states();
-        deadlocks.extend(states.filter(|&state| model.choices().is_deadlock(state as StateId)));
+        deadlocks.extend(states.filter(|&state| model.choices().is_deadlock(StateId::from_index(state))));
         let loops = deadlocks.count_ones(..) as u64;
         let raised = raised_lower_bound(model);
         Ok(Self {
@@ -182,7 +182,7 @@ impl<'a> UmbWriter<'a> {
         mut take: impl FnMut(StateId, Option<RowId>) -> io::Result<()>,
     ) -> io::Result<()> {
         let choices = self.model.choices();
-        for state in 0..self.model.num_states() as StateId {
+        for state in StateId::first(self.model.num_states()) {
             if choices.ranges(state).is_empty() {
                 take(state, None)?;
             }
@@ -195,7 +195,7 @@ impl<'a> UmbWriter<'a> {
         let choices = self.model.choices();
         let mut offset = 0u64;
         out.write_all(&offset.to_le_bytes())?;
-        for state in 0..self.model.num_states() as StateId {
+        for state in StateId::first(self.model.num_states()) {
             let of_ranges: u64 = choices.ranges(state).iter().map(|range| range.len() as u64).sum();
             offset += of_ranges.max(1);
             out.write_all(&offset.to_le_bytes())?;
