@@ -14,8 +14,8 @@ use crate::partition::{CellId, CellKind, Grid};
 use crate::problem::{Probabilities, Problem};
 use crate::system::FeedbackLaw;
 use imdp::model::{
-    ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, ModelKind, Parts, RowRange, RowSet, StateId,
-    StateSet,
+    ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, ModelKind, Parts, RowRange, RowSet,
+    StateId, StateSet,
 };
 use imdp::progress::Progress;
 use imdp::property::{PathFormula, Property, Resolution, StateFormula, Threshold, ThresholdComparison};

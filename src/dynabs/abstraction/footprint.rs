@@ -22,6 +22,9 @@ const RANGE_BYTES: u64 = 40;
 /// Per entry of a row, successor and bounds: in two models, and in the pieces that they are put together from.
 const ENTRY_BYTES: u64 = 60;
 
+/// Per row that is a shift of a stencil: which, its length, what its special states get; in two models.
+const SHIFTED_ROW_BYTES: u64 = 24;
+
 /// How many cells say how many ranges all have.
 const PROBED_CELLS: u32 = 512;
 
@@ -46,10 +49,17 @@ impl Footprint {
         Self { needs }
     }
 
-    /// And what its rows take, by an estimate.
+    /// And what its rows take; by an estimate, if they are not shifts of one another.
     pub(super) fn with_rows(mut self, problem: &Problem, steering: &Steering) -> Self {
-        let entries = (steering.targets.len() as u64).saturating_mul(row_length(problem));
-        self.needs.push(need_of_rows(problem, entries));
+        let targets = steering.targets.len() as u64;
+        self.needs.push(match steering.targets.alignment() {
+            Some(_) => Need {
+                what: "the rows of the model",
+                bytes: targets.saturating_mul(SHIFTED_ROW_BYTES),
+                field: field_of_targets(problem),
+            },
+            None => need_of_rows(problem, targets.saturating_mul(row_length(problem))),
+        });
         self
     }
 

@@ -5,7 +5,7 @@ use super::placement::Placement;
 use super::targets::{Alignment, Targets};
 use super::windows::Windows;
 use crate::noise::NoiseSamples;
-use crate::partition::{CellId, Grid};
+use crate::partition::Grid;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::collections::BTreeSet;

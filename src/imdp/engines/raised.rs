@@ -9,11 +9,11 @@ use crate::model::{End, ImdpError, IntervalMdp, Rows};
 /// # Errors
 /// Those of [`IntervalMdp::new`]; none, if `model` is an interval MDP.
 pub fn raised(model: &IntervalMdp) -> Result<Option<IntervalMdp>, ImdpError> {
-    if model.rows().iter().all(|row| row.lower.iter().all(|&lower| lower > 0.0)) {
+    if !model.rows().any(|row| row.lower.contains(&0.0)) {
         return Ok(None);
     }
     let mut rows = Rows::with_capacity(model.rows().len(), model.rows().num_entries());
-    for row in model.rows().iter() {
+    model.rows().for_each(|_, row| {
         for (i, &successor) in row.successors.iter().enumerate() {
             let lower = if row.lower[i] == 0.0 { RAISED_LOWER_BOUND } else { row.lower[i] };
             rows.push_entry(successor, lower, row.upper[i].max(lower));
@@ -22,6 +22,6 @@ pub fn raised(model: &IntervalMdp) -> Result<Option<IntervalMdp>, ImdpError> {
             }
         }
         rows.finish_row();
-    }
+    });
     model.with_rows(rows).map(Some)
 }

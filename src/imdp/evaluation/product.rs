@@ -4,8 +4,8 @@ use super::expression::Evaluator;
 use super::{EvaluationError, Truth};
 use crate::automaton::{Automaton, Condition, Ltl};
 use crate::model::{
-    ActionNames, ChoicesBuilder, IntervalMdp, Labels, Parts, RowId, RowRange, Rows, StateId, StateSet,
-    StateVariables, require_memory,
+    ActionNames, ChoicesBuilder, IntervalMdp, Labels, Parts, RowBuffer, RowId, RowRange, Rows, StateId,
+    StateSet, StateVariables, require_memory,
 };
 use crate::property::Resolution;
 use crate::solver::{Acceptance, Event, ValueBounds, accepting_states, solve};
@@ -99,7 +99,7 @@ impl Product {
         let starts = StateId::first(model.num_states())
             .map(|state| pairs.enter(state, 0))
             .collect::<Result<Vec<_>, _>>()?;
-        let mut rows = Rows::new();
+        let (mut rows, mut buffer) = (Rows::new(), RowBuffer::default());
         let mut known: HashMap<(Option<RowId>, StateId, u32), RowId> = HashMap::new();
         let mut choices = ChoicesBuilder::with_capacity(starts.len());
         let mut satisfied = vec![];
@@ -123,7 +123,7 @@ impl Product {
                     Some(&id) => id,
                     None => {
                         let mut entries = vec![];
-                        match row.map(|row| model.rows().row(row)) {
+                        match row.map(|row| model.rows().row(row, &mut buffer)) {
                             None => entries.push((pairs.enter(state, memory)?, 1.0, 1.0)),
                             Some(row) => {
                                 for ((&s, &l), &u) in row.successors.iter().zip(row.lower).zip(row.upper) {

@@ -12,6 +12,7 @@ mod labels;
 mod memory;
 mod restrict;
 mod rewards;
+mod row_set;
 mod rows;
 
 pub use choices::{Choices, ChoicesBuilder, RowRange};
@@ -23,4 +24,5 @@ pub use labels::{Labels, StateVariable, StateVariables, VariableValues};
 pub use memory::{GrowingMemory, MemoryError, MemoryLimit, available_memory, require_memory};
 pub use restrict::restrict;
 pub use rewards::{RewardError, RewardStructure, Rewards};
+pub use row_set::{ComputedRows, RowBuffer, RowEntries, RowSet};
 pub use rows::{Row, RowError, Rows};

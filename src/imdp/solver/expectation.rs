@@ -34,7 +34,7 @@
 
 use super::query::Direction;
 use super::threshold::{Scratch, Threshold};
-use crate::model::{Row, RowId, Rows};
+use crate::model::{Row, RowBuffer, RowId, RowSet};
 use crate::numeric::rounding_factor;
 
 /// Which side of the exact value a result is on.
@@ -58,25 +58,27 @@ pub(super) struct RowBlock {
     /// `1 − Σ l` of every row.
     slacks: Vec<f64>,
     scratch: Scratch,
+    buffer: RowBuffer,
 }
 
 impl RowBlock {
-    pub(super) fn new(all: &Rows, rows: Vec<RowId>) -> Self {
-        let slacks = rows.iter().map(|&row| slack(all.row(row))).collect();
-        Self { critical: vec![0; rows.len()], rows, slacks, scratch: Scratch::default() }
+    pub(super) fn new(all: &RowSet, rows: Vec<RowId>) -> Self {
+        let mut buffer = RowBuffer::default();
+        let slacks = rows.iter().map(|&row| slack(all.row(row, &mut buffer))).collect();
+        Self { critical: vec![0; rows.len()], rows, slacks, scratch: Scratch::default(), buffer }
     }
 
     /// The expectations of the rows of the block, in their order.
     pub(super) fn evaluate(
         &mut self,
-        all: &Rows,
+        all: &RowSet,
         values: &[f64],
         nature: Direction,
         side: Bound,
     ) -> Vec<f64> {
-        let Self { rows, critical, slacks, scratch } = self;
+        let Self { rows, critical, slacks, scratch, buffer } = self;
         let expectations = rows.iter().zip(slacks).zip(critical).map(|((&id, slack), critical)| {
-            expectation((all.row(id), *slack), values, (critical, scratch), nature, side)
+            expectation((all.row(id, buffer), *slack), values, (critical, scratch), nature, side)
         });
         expectations.collect()
     }
@@ -190,7 +192,7 @@ pub(super) fn poured_mass(row: Row<'_>, values: &[f64], nature: Direction) -> Ve
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::StateId;
+    use crate::model::{Rows, StateId};
     use proptest::prelude::*;
 
     /// Pours into one successor after the other, sorted by value.
@@ -216,11 +218,13 @@ mod tests {
                 rows.push_entry(StateId::from_index(i), low / total, (low / total + more).min(1.0));
             }
             let id = rows.finish_row();
+            let rows = RowSet::from(rows);
             let mut block = RowBlock::new(&rows, vec![id]);
+            let mut buffer = RowBuffer::default();
             for values in rounds {
                 let values: Vec<f64> = values.into_iter().map(|v| f64::from(v) / 11.0).collect();
                 for nature in [Direction::Min, Direction::Max] {
-                    let expected = sorted(rows.row(id), &values, nature);
+                    let expected = sorted(rows.row(id, &mut buffer), &values, nature);
                     let [low, high] = [Bound::Lower, Bound::Upper]
                         .map(|side| block.evaluate(&rows, &values, nature, side)[0]);
                     prop_assert!(low <= expected && expected <= high, "{low} {expected} {high}");

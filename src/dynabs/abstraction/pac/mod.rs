@@ -68,8 +68,8 @@
 mod bounds;
 mod events;
 mod levels;
-mod prepared;
 mod preference;
+mod prepared;
 
 use super::AbstractionError;
 use super::footprint::need_of_rows;
@@ -84,12 +84,12 @@ use crate::guarantee::SampleEvidence;
 use crate::problem::Problem;
 use bounds::{BoundTable, DIGITS, Interval};
 use events::{cell_events, intervals};
-use imdp::model::{RowBuffer, RowSet};
+use imdp::model::RowSet;
 use imdp::numeric::{round_decimal_down, round_decimal_up};
 use imdp::progress::Progress;
 use levels::{EventLevels, LowerBounds};
-pub(super) use preference::Preference;
 use preference::Chooser;
+pub(super) use preference::Preference;
 pub(super) use prepared::Prepared;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -298,7 +298,8 @@ fn regions(
         ground.origin(target, origin);
         match &shared {
             Some((_, window))
-                if ground.contains(window, origin) && merged.iter().all(|cells| cells.of(window, origin) == 0) =>
+                if ground.contains(window, origin)
+                    && merged.iter().all(|cells| cells.of(window, origin) == 0) =>
             {
                 RegionCounts::default()
             }

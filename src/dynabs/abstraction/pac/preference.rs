@@ -1,7 +1,7 @@
 //! Which window a row is made with.
 
-use super::PacRows;
 use super::super::stencil::{Chosen, Stencil};
+use super::PacRows;
 use imdp::model::{Row, RowBuffer};
 use imdp::solver::WorstExpectation;
 

@@ -50,7 +50,8 @@ impl BoxCount {
                 index = index.zip(along).map(|(index, along)| index * self.cells[j] as usize + along);
             }
             let sum = index.map_or(0, |index| self.sums[index]);
-            total = if corner.count_ones() % 2 == 0 { total.wrapping_add(sum) } else { total.wrapping_sub(sum) };
+            total =
+                if corner.count_ones() % 2 == 0 { total.wrapping_add(sum) } else { total.wrapping_sub(sum) };
         }
         total
     }

@@ -44,8 +44,7 @@ impl Stencil {
         interval: impl Fn(usize) -> Option<(f64, f64)>,
     ) -> Self {
         let volume = hull.volume();
-        let (lower, upper) =
-            std::iter::once(usual).chain((0..volume).filter_map(&interval)).unzip();
+        let (lower, upper) = std::iter::once(usual).chain((0..volume).filter_map(&interval)).unzip();
         Self { runs: Runs::new(hull, ground, |position| interval(position).is_some()), lower, upper }
     }
 

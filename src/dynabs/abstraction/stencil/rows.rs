@@ -1,7 +1,7 @@
 //! The rows of a model, as stencils.
 
 use super::{Ground, Special, Stencil};
-use imdp::model::{ComputedRows, Row, RowBuffer, RowId};
+use imdp::model::{ComputedRows, Row, RowBuffer, RowId, RowSet};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -81,6 +81,12 @@ impl StencilRows {
         self.special.push(place);
         self.lengths.push(length);
         self.entries += length as usize;
+    }
+}
+
+impl From<StencilRows> for RowSet {
+    fn from(rows: StencilRows) -> Self {
+        Self::Computed(Arc::new(rows))
     }
 }
 

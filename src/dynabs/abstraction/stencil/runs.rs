@@ -20,8 +20,7 @@ impl Runs {
     /// The cells of a box that are `listed` at their row-major position in it.
     pub(in super::super) fn new(hull: &Spread, ground: &Ground, listed: impl Fn(usize) -> bool) -> Self {
         let n = hull.lower.len();
-        let mut runs =
-            Self { hull: hull.clone(), starts: vec![], positions: vec![0], shifts: vec![] };
+        let mut runs = Self { hull: hull.clone(), starts: vec![], positions: vec![0], shifts: vec![] };
         let (mut position, mut cells) = (0, 0u32);
         hull.for_each(|cell| {
             if listed(position) {

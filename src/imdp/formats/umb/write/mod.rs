@@ -63,7 +63,7 @@ impl RowBytes {
         let entries = model.rows().num_entries();
         let (mut targets, mut bounds) = (Vec::with_capacity(8 * entries), Vec::with_capacity(16 * entries));
         let mut starts = vec![0];
-        for row in model.rows().iter() {
+        model.rows().for_each(|_, row| {
             for ((&successor, &lower), &upper) in row.successors.iter().zip(row.lower).zip(row.upper) {
                 let lower = raised.filter(|_| lower == 0.0).unwrap_or(lower);
                 targets.extend(u64::from(successor).to_le_bytes());
@@ -71,7 +71,7 @@ impl RowBytes {
                 bounds.extend(upper.max(lower).to_le_bytes());
             }
             starts.push(targets.len() / 8);
-        }
+        });
         Self { targets, bounds, starts }
     }
 
@@ -231,13 +231,14 @@ impl<'a> UmbWriter<'a> {
 
 /// A tiny positive number that is not a bound of the model, if it has lower bounds of 0.
 fn raised_lower_bound(model: &IntervalMdp) -> Option<f64> {
-    let mut lower = model.rows().iter().flat_map(|row| row.lower);
-    if !lower.any(|&lower| lower == 0.0) {
+    if !model.rows().any(|row| row.lower.contains(&0.0)) {
         return None;
     }
-    let bounds = model.rows().iter().flat_map(|row| row.lower.iter().chain(row.upper));
-    let taken: HashSet<u64> =
-        bounds.filter(|&&bound| bound <= RAISED_LOWER_BOUND).map(|bound| bound.to_bits()).collect();
+    let mut taken = HashSet::new();
+    model.rows().for_each(|_, row| {
+        let bounds = row.lower.iter().chain(row.upper);
+        taken.extend(bounds.filter(|&&bound| bound <= RAISED_LOWER_BOUND).map(|bound| bound.to_bits()));
+    });
     let mut raised = RAISED_LOWER_BOUND;
     while taken.contains(&raised.to_bits()) {
         raised = raised.next_down();
