@@ -17,7 +17,7 @@ use dynabs::problem::{
     Gain, GivenSamples, InputSet, LinearDynamics, LowerLayer, Partition, Probabilities, Problem, RegionBox,
     SampleKind, Task,
 };
-use imdp::model::Row;
+use imdp::model::{RowBuffer, Row};
 use imdp::solver::{Answer, SolverOptions};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha12Rng;
@@ -187,7 +187,8 @@ impl Experiment {
             let state = enabling.state_of_cell[cell.index()];
             enabling.model.choices().rows(state).any(|row| {
                 let mut truths = self.truths(cell, row.index());
-                let row = row_of.model.rows().row(row);
+                let buffer = &mut RowBuffer::default();
+                let row = row_of.model.rows().row(row, buffer);
                 truths.any(|truth| excludes(problem, row_of, &row, truth))
             })
         })

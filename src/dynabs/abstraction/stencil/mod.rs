@@ -107,3 +107,6 @@ impl Stencil {
         Row { successors, lower: &self.lower, upper: &self.upper, exact: &[] }
     }
 }
+
+#[cfg(test)]
+mod tests;
