@@ -24,6 +24,7 @@ mod native;
 mod noise_masses;
 mod open;
 mod output;
+mod overflow;
 mod paper;
 mod predecessors;
 mod promises;

@@ -148,7 +148,9 @@ fn read_file(path: &Path, definitions: &mut Definitions) -> Result<Vec<Asked>, C
         true => CliError::Input(format!("{shown}: {error}; expected a file of properties")),
         false => CliError::reading(path, &error),
     })?;
+    definitions.look_in(path.parent().unwrap_or(Path::new("")));
     let entries = parse_document(&text, definitions);
+    definitions.look_in(Path::new(""));
     if entries.is_empty() {
         return Err(CliError::Input(format!("{shown}: found no property; expected at least one")));
     }

@@ -17,7 +17,7 @@ use dynabs::problem::{
     Gain, GivenSamples, InputSet, LinearDynamics, LowerLayer, Partition, Probabilities, Problem, RegionBox,
     SampleKind, Task,
 };
-use imdp::model::{RowBuffer, Row};
+use imdp::model::{Row, RowBuffer, StateId};
 use imdp::solver::{Answer, SolverOptions};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha12Rng;
@@ -228,7 +228,7 @@ impl Experiment {
         let answer = Answer::new(&strict.model, &strict.property, &options).unwrap();
         let worst = self.worst_values(&every_step, &strict, &answer);
         let is_overstated =
-            |(worst, &state): (&f64, &u32)| answer.values.lower[state as usize] > worst + ROUNDING;
+            |(worst, state): (&f64, &StateId)| answer.values.lower[state.index()] > worst + ROUNDING;
         BetweenFailures {
             rows: u64::from(self.is_violated(&every_step, &strict, &strict)),
             values: u64::from(worst.iter().zip(&strict.state_of_cell).any(is_overstated)),
@@ -245,7 +245,7 @@ impl Experiment {
             Answer::new(&abstraction.model, &abstraction.property, &SolverOptions::default()).unwrap();
         let ordinary = problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
         ordinary
-            .map(|(cell, _)| answer.values.lower[abstraction.state_of_cell[cell.index()] as usize])
+            .map(|(cell, _)| answer.values.lower[abstraction.state_of_cell[cell.index()].index()])
             .fold(0.0, f64::max)
     }
 }
@@ -280,12 +280,12 @@ fn crossing(law: &Law, cell: [u32; 2], target: [u32; 2]) -> Vec<usize> {
 fn excludes(problem: &Problem, abstraction: &Abstraction, row: &Row<'_>, truth: &[f64]) -> bool {
     let mut of_state = vec![0.0; abstraction.model.num_states()];
     for (cell, _) in problem.labels().iter() {
-        of_state[abstraction.state_of_cell[cell.index()] as usize] += truth[cell.index()];
+        of_state[abstraction.state_of_cell[cell.index()].index()] += truth[cell.index()];
     }
-    let listed: f64 = row.successors.iter().filter(|&&s| s != 0).map(|&s| of_state[s as usize]).sum();
+    let listed: f64 = row.successors.iter().filter(|&&s| s != StateId(0)).map(|&s| of_state[s.index()]).sum();
     of_state[0] = 1.0 - listed;
     row.successors.iter().enumerate().any(|(i, &state)| {
-        let p = of_state[state as usize];
+        let p = of_state[state.index()];
         p < row.lower[i] - ROUNDING || p > row.upper[i] + ROUNDING
     })
 }

@@ -2,7 +2,7 @@
 
 use imdp::formats::prism::import_with_progress;
 use imdp::formats::{Imported, Place, Warning};
-use imdp::model::{RowBuffer, ActionNames, ModelKind, RowId, RowRange, StateId, VariableValues};
+use imdp::model::{ActionNames, ModelKind, RowBuffer, RowId, RowRange, StateId, VariableValues};
 
 use super::{Files, LAB, STA, TRA, assert_refused, import_texts};
 
@@ -116,10 +116,7 @@ fn long_files_are_read_like_short_ones() {
     let lab = "0=\"init\"\n0: 0\n";
     let model = import_texts(&tra, None, lab).unwrap().model;
     assert_eq!(model.size().transitions, 2 * states * width);
-    assert_eq!(
-        model.rows().row_len(model.choices().rows(StateId(19_999)).last().unwrap()),
-        8
-    );
+    assert_eq!(model.rows().row_len(model.choices().rows(StateId(19_999)).last().unwrap()), 8);
     let wrong = tra.replacen("\n19000 1 0 ", "\n19000 1 x ", 1);
     assert_refused("long", import_texts(&wrong, None, lab), "m.tra:304010:9", &["`x`"]);
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use imdp::formats::{Imported, Warning};
-use imdp::model::{RowBuffer, IntervalMdp, StateId, StateVariable};
+use imdp::model::{IntervalMdp, RowBuffer, StateId, StateVariable};
 use proptest::prelude::*;
 
 use super::{Files, LAB, STA, TRA};

@@ -1,6 +1,6 @@
 //! Exact values by brute force: every policy against every vertex of every row, in rationals.
 
-use imdp::model::{RowBuffer, IntervalMdp, RowId, StateId, StateSet};
+use imdp::model::{IntervalMdp, RowBuffer, RowId, StateId, StateSet};
 use imdp::numeric::from_decimal;
 use num_rational::{BigRational, Ratio};
 use num_traits::{One, ToPrimitive, Zero};

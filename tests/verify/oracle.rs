@@ -1,7 +1,7 @@
 //! Steps of certificates judged by the definitions, slowly and in rationals throughout.
 
 use imdp::certificate::Step;
-use imdp::model::{RowBuffer, IntervalMdp, RowId, StateId, StateSet};
+use imdp::model::{IntervalMdp, RowBuffer, RowId, StateId, StateSet};
 use imdp::numeric::{Rational, from_decimal, from_dyadic};
 use imdp::property::{Property, QueryKind};
 use num_traits::{One, Zero};

@@ -38,7 +38,7 @@ impl Placement {
         tolerance: Option<&[f64]>,
     ) -> Self {
         let axis = |j: usize| AxisPlacement {
-            width: to_f64(grid.axes()[j].width()),
+            width: width(grid, j),
             shift: to_f64(&alignment[j].phase),
             lowest: -(last_cells[j] as i32) - 1,
             highest: grid.axes()[j].cells() as i32 - alignment[j].first_cell as i32,
@@ -50,7 +50,7 @@ impl Placement {
     /// Coordinates in the grid, for one target point anywhere.
     pub fn of_point(grid: &Grid, point: &[f64], tolerance: Option<&[f64]>) -> Self {
         let axis = |j: usize| {
-            let width = to_f64(grid.axes()[j].width());
+            let width = width(grid, j);
             let lower = to_f64(grid.axes()[j].lower());
             let offset = 2.0 * UNIT_ROUNDOFF * (point[j].abs() + lower.abs());
             AxisPlacement {
@@ -93,6 +93,12 @@ impl Placement {
     }
 }
 
+/// The width of cells; no number if it is beyond doubles, so that nobody takes noise for small beside it.
+fn width(grid: &Grid, j: usize) -> f64 {
+    let width = to_f64(grid.axes()[j].width());
+    if width.is_finite() { width } else { f64::NAN }
+}
+
 impl AxisPlacement {
     /// The least and the greatest coordinate for noise `x ± error`; all of them if that is no number.
     fn spread(&self, x: f64, error: f64) -> (i32, i32) {
@@ -117,9 +123,14 @@ impl AxisPlacement {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use imdp::numeric::from_decimal;
 
     #[test]
     fn what_is_no_number_may_be_anywhere() {
+        let exact = |x: f64| vec![from_decimal(x).unwrap()];
+        let grid = Grid::new(&exact(-1.7e308), &exact(1.7e308), &[1]).unwrap();
+        let spread = Placement::of_point(&grid, &[0.0], Some(&[0.0])).spread(NoiseSample::exact(&[0.0]));
+        assert_eq!((spread.lower, spread.upper), (vec![-1], vec![1]));
         let axis = AxisPlacement { width: 2.0, shift: 0.5, lowest: -3, highest: 4, tolerance: Some(1e-12) };
         assert_eq!(axis.spread(2.0, 0.0), (1, 1));
         assert_eq!(axis.spread(3.0, 1e-13), (1, 2));

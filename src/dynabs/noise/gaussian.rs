@@ -17,12 +17,13 @@ pub struct Gaussian {
 }
 
 impl Gaussian {
-    /// `N(mean, covariance)` with `mean` `n×1` and `covariance` `n×n`; `None` if the latter is indefinite.
+    /// `N(mean, covariance)` with `mean` `n×1` and `covariance` `n×n`; `None` if the latter is indefinite, or its factor
+    /// leaves the range of doubles.
     pub fn new(mean: &[f64], covariance: &ExactMatrix) -> Option<Self> {
         let factors = covariance.ldl()?;
         let deviations: Vec<_> = factors.diagonal.iter().map(|d| to_f64(d).sqrt()).collect();
         let factor = factors.lower.to_f64() * DMatrix::from_diagonal(&DVector::from_vec(deviations));
-        Some(Self { mean: DVector::from_column_slice(mean), factor })
+        factor.iter().all(|x| x.is_finite()).then(|| Self { mean: DVector::from_column_slice(mean), factor })
     }
 
     /// The dimension of the noise.
@@ -70,6 +71,13 @@ mod tests {
         assert!((mean(&|s| s[0]) - 1.0).abs() < 0.03 && (mean(&|s| s[1]) + 2.0).abs() < 0.02);
         assert!((mean(&|s| (s[0] - 1.0).powi(2)) - 6.0).abs() < 0.12);
         assert!((mean(&|s| (s[0] - 1.0) * (s[1] + 2.0)) - 1.0).abs() < 0.06);
+    }
+
+    #[test]
+    fn a_factor_beyond_doubles_is_none() {
+        // The factor of the second column by the first is 1e-8 / 5e-324.
+        let covariance = DMatrix::from_row_slice(2, 2, &[5e-324, 1e-8, 1e-8, 1e308]);
+        assert!(Gaussian::new(&[0.0; 2], &ExactMatrix::from_decimals(&covariance).unwrap()).is_none());
     }
 
     #[test]

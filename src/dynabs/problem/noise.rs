@@ -186,7 +186,9 @@ impl GaussianNoise {
         let what = "one per dimension of the state";
         let mean: Vec<f64> = vector("/noise/gaussian/mean", mean, n, what)?.iter().map(to_f64).collect();
         Gaussian::new(&mean, &covariance).ok_or_else(|| {
-            Diagnostic::at(place, "a matrix without a factor", "a positive semidefinite matrix")
+            let found = "entries so far apart that its factor leaves the range of doubles";
+            Diagnostic::at(place, found, "entries of comparable sizes")
+                .remedy("Measure the state in other units.")
         })
     }
 }

@@ -1,7 +1,7 @@
 //! The checks that the master theorem asks for, for every guess of what holds again and again and what for ever.
 
-use super::LtlError;
 use super::formulas::{Dnf, Formulas};
+use super::{Condition, LtlError};
 use std::collections::{BTreeSet, HashMap};
 
 /// So many formulas with `F G U W R` make as many guesses as there are sets of them.
@@ -16,15 +16,6 @@ pub(super) enum Check {
     Safety(Dnf),
     /// `F` of a co-safety formula: decided when it has succeeded.
     CoSafety(Dnf),
-}
-
-/// What a run must do for one guess to be right: some checks are decided finitely often, others infinitely often.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Condition {
-    /// Checks that are decided finitely often.
-    pub(crate) finitely: Vec<usize>,
-    /// Checks that are decided infinitely often.
-    pub(crate) infinitely: Vec<usize>,
 }
 
 /// All checks, each once, and what is asked of them.

@@ -73,6 +73,11 @@ impl Dnf {
         Ok(result)
     }
 
+    /// Whether the combination is true if these atoms are.
+    pub(super) fn holds(&self, mut atom: impl FnMut(u32) -> bool) -> bool {
+        self.0.iter().any(|disjunct| disjunct.iter().all(|&id| atom(id)))
+    }
+
     /// The atoms.
     pub(super) fn atoms(&self) -> BTreeSet<u32> {
         self.0.iter().flatten().copied().collect()

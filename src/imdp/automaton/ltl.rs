@@ -48,6 +48,11 @@ pub enum LtlError {
         /// How many are allowed.
         limit: usize,
     },
+    /// No prefix of a word decides the formula, by its form.
+    #[error(
+        "the formula is neither safe nor co-safe: something has to hold for ever or again and again, and something else to come"
+    )]
+    Undecided,
     /// What remains of a formula becomes too large.
     #[error("the automaton of the formula becomes too large; simplify the formula")]
     Size,

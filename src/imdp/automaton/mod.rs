@@ -1,4 +1,4 @@
-//! Deterministic automata for linear temporal logic.
+//! Deterministic automata: of linear temporal logic, or read from files.
 //!
 //! A formula over propositions `0, 1, …` becomes a deterministic automaton with a generalised Rabin condition, by what is
 //! known as the master theorem (Esparza, Kretinsky, Sickert: *One Theorem to Rule Them All*, LICS 2018). For a formula `φ`
@@ -17,12 +17,29 @@
 //! What remains of a formula is a positive Boolean combination of finitely many others, kept as the set of its minimal
 //! disjuncts, which is the same for equivalent combinations: so there are finitely many states. They are made when they
 //! are met.
+//!
+//! [`read_hoa`] reads others from files; a [`DeterministicAutomaton`] may have any condition of what is met infinitely often.
 
+mod acceptor;
 mod checks;
+mod deterministic;
+mod dfa;
+mod finite;
 mod formulas;
+mod hoa;
 mod ltl;
 mod run;
+mod text;
 
-pub(crate) use checks::Condition;
+pub use deterministic::DeterministicAutomaton;
+pub use dfa::{Aim, Dfa};
+pub use hoa::{HoaError, HoaErrorKind, read_hoa};
 pub use ltl::{Ltl, LtlError};
+
+pub(crate) use acceptor::{Acceptor, Condition};
+pub(crate) use deterministic::MarkedAutomaton;
 pub(crate) use run::Automaton;
+pub use text::FormulaError;
+
+#[cfg(test)]
+mod tests;

@@ -1,8 +1,8 @@
 //! The automaton, made state by state as it is needed.
 
-use super::checks::{Check, Checks, Condition};
+use super::checks::{Check, Checks};
 use super::formulas::{Dnf, Formulas};
-use super::{Ltl, LtlError};
+use super::{Acceptor, Condition, Ltl, LtlError};
 use std::collections::HashMap;
 
 /// More states than this are given up.
@@ -53,11 +53,22 @@ impl Automaton {
         Ok(automaton)
     }
 
-    /// The state after a letter.
-    ///
-    /// # Errors
-    /// [`LtlError::Size`] if there are too many states.
-    pub(crate) fn step(&mut self, state: u32, letter: u64) -> Result<u32, LtlError> {
+    fn id(&mut self, state: State) -> Result<u32, LtlError> {
+        if let Some(&id) = self.ids.get(&state) {
+            return Ok(id);
+        }
+        if self.states.len() >= MAX_STATES {
+            return Err(LtlError::Size);
+        }
+        let id = self.states.len() as u32;
+        self.ids.insert(state.clone(), id);
+        self.states.push(state);
+        Ok(id)
+    }
+}
+
+impl Acceptor for Automaton {
+    fn step(&mut self, state: u32, letter: u64) -> Result<u32, LtlError> {
         if let Some(&next) = self.steps.get(&(state, letter)) {
             return Ok(next);
         }
@@ -88,21 +99,7 @@ impl Automaton {
         Ok(id)
     }
 
-    fn id(&mut self, state: State) -> Result<u32, LtlError> {
-        if let Some(&id) = self.ids.get(&state) {
-            return Ok(id);
-        }
-        if self.states.len() >= MAX_STATES {
-            return Err(LtlError::Size);
-        }
-        let id = self.states.len() as u32;
-        self.ids.insert(state.clone(), id);
-        self.states.push(state);
-        Ok(id)
-    }
-
-    /// Whether every continuation satisfies the formula (`Some(true)`) or none (`Some(false)`).
-    pub(crate) fn decided(&self, state: u32) -> Option<bool> {
+    fn decided(&self, state: u32) -> Option<bool> {
         let remainder = &self.states[state as usize].remainder;
         match (remainder.is_true(), remainder.is_false()) {
             (true, _) => Some(true),
@@ -111,13 +108,11 @@ impl Automaton {
         }
     }
 
-    /// Whether the letter that led here decided a check.
-    pub(crate) fn decides(&self, state: u32, check: usize) -> bool {
+    fn decides(&self, state: u32, check: usize) -> bool {
         self.states[state as usize].decided[check]
     }
 
-    /// A run is accepted if it satisfies one of these conditions, or is decided to be.
-    pub(crate) fn conditions(&self) -> &[Condition] {
+    fn conditions(&self) -> &[Condition] {
         &self.checks.conditions
     }
 }

@@ -17,6 +17,27 @@ pub enum EvaluationError {
     /// A path formula is too large.
     #[error(transparent)]
     Formula(#[from] LtlError),
+    /// The file of an automaton cannot be used.
+    #[error("{}: {problem}", file.display())]
+    Automaton {
+        /// The file.
+        file: std::path::PathBuf,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// A proposition of an automaton is nothing of the model.
+    #[error(
+        "{}: found the proposition \"{name}\", which is no label of the model; expected its meaning behind the name of the file, \
+         as in HOA: {{\"{}\", \"{name}\" <- x=1}}",
+        file.display(),
+        file.display()
+    )]
+    Proposition {
+        /// The file of the automaton.
+        file: std::path::PathBuf,
+        /// The proposition.
+        name: String,
+    },
     /// The product with an automaton does not fit into memory.
     #[error(transparent)]
     Memory(#[from] crate::model::MemoryError),

@@ -4,6 +4,8 @@
 //! the bounds of a value is not decided. Numbers are exact as long as no probability or reward is involved, and bounds from
 //! then on, rounded outwards in every operation.
 
+mod automaton;
+mod cosafe;
 mod directions;
 mod error;
 mod exact;

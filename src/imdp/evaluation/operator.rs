@@ -1,12 +1,13 @@
 //! The operators `P` and `R`.
 
 use super::expression::{Evaluator, compare};
+use super::path::is_path;
 use super::{EvaluationError, Numbers, Truth, directions};
 use crate::model::RewardStructure;
 use crate::numeric::to_f64;
 use crate::property::{
     Asked, Constant, Measured, Node, NodeKind, Operator, Relation, Resolution, RewardPath, StepBound,
-    Structure, ThresholdComparison, constant,
+    Structure, TemporalOperator, ThresholdComparison, constant,
 };
 use crate::solver::{RewardQuery, Solution, SolverOptions, Status, ValueBounds, solve_rewards};
 use num_traits::ToPrimitive;
@@ -64,8 +65,13 @@ impl Evaluator<'_> {
         };
         match path {
             RewardPath::Reach(node) => {
-                let NodeKind::Temporal(_, _, operand) = &node.kind else {
-                    return Ok(self.nothing_known());
+                let operand = match &node.kind {
+                    NodeKind::Temporal(TemporalOperator::Finally, bounds, operand)
+                        if bounds.is_none() && !is_path(operand) =>
+                    {
+                        operand
+                    }
+                    _ => return self.cosafe_reward(rewards, node, resolution),
                 };
                 let goal = self.truth(operand)?;
                 if goal.is_exact() {
@@ -99,11 +105,6 @@ impl Evaluator<'_> {
         }
         self.policy = solution.policy;
         solution.values
-    }
-
-    fn nothing_known(&self) -> ValueBounds {
-        let states = self.model.num_states();
-        ValueBounds { lower: vec![0.0; states], upper: vec![f64::INFINITY; states] }
     }
 }
 

@@ -25,6 +25,7 @@ impl Evaluator<'_> {
         resolution: Resolution,
     ) -> Result<ValueBounds, EvaluationError> {
         match &path.kind {
+            NodeKind::Automaton(automaton) => return self.automaton(automaton, resolution),
             NodeKind::Not(operand) => {
                 return Ok(self.probability(operand, resolution.flipped())?.complement());
             }
@@ -98,7 +99,11 @@ impl Evaluator<'_> {
     }
 
     /// A path formula over propositions, which are collected.
-    fn formula(&mut self, node: &Node, propositions: &mut Vec<Truth>) -> Result<Ltl, EvaluationError> {
+    pub(super) fn formula(
+        &mut self,
+        node: &Node,
+        propositions: &mut Vec<Truth>,
+    ) -> Result<Ltl, EvaluationError> {
         if !is_path(node) {
             let truth = self.truth(node)?;
             let known = propositions.iter().position(|other| *other == truth);
@@ -194,9 +199,9 @@ fn until(operator: UntilOperator, bounds: &StepBounds, left: Ltl, right: Ltl) ->
 }
 
 /// Whether a formula speaks of more than the present state.
-fn is_path(node: &Node) -> bool {
+pub(super) fn is_path(node: &Node) -> bool {
     match &node.kind {
-        NodeKind::Temporal(..) | NodeKind::Until(..) => true,
+        NodeKind::Temporal(..) | NodeKind::Until(..) | NodeKind::Automaton(_) => true,
         NodeKind::Operator(_) | NodeKind::Filter(_) => false,
         kind => kind.children().into_iter().any(is_path),
     }

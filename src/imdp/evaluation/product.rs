@@ -2,10 +2,10 @@
 
 use super::expression::Evaluator;
 use super::{EvaluationError, Truth};
-use crate::automaton::{Automaton, Condition, Ltl};
+use crate::automaton::{Acceptor, Automaton, Condition, Ltl};
 use crate::model::{
-    ActionNames, ChoicesBuilder, IntervalMdp, Labels, Parts, RowBuffer, RowId, RowRange, Rows, StateId,
-    StateSet, StateVariables, require_memory,
+    ActionNames, ChoicesBuilder, IntervalMdp, Labels, Parts, RewardStructure, RowBuffer, RowId, RowRange,
+    Rows, StateId, StateSet, StateVariables, require_memory,
 };
 use crate::property::Resolution;
 use crate::solver::{Acceptance, Event, ValueBounds, accepting_states, solve};
@@ -30,13 +30,18 @@ impl Evaluator<'_> {
             let negation = Ltl::Not(Box::new(formula.clone()));
             return Ok(self.omega(&negation, propositions, resolution.flipped())?.complement());
         }
-        let mut letters = vec![0u64; self.model.num_states()];
-        for (index, proposition) in propositions.iter().enumerate() {
-            for state in proposition.decided()?.ones() {
-                letters[state] |= 1 << (index % 64);
-            }
-        }
-        let product = Product::new(self.model, &mut Automaton::new(formula)?, &letters)?;
+        self.accepted(&mut Automaton::new(formula)?, propositions, resolution)
+    }
+
+    /// Bounds on the probability of a run that is accepted; the policy maximises.
+    pub(super) fn accepted(
+        &mut self,
+        acceptor: &mut dyn Acceptor,
+        propositions: &[Truth],
+        resolution: Resolution,
+    ) -> Result<ValueBounds, EvaluationError> {
+        let letters = self.letters(propositions)?;
+        let product = Product::new(self.model, acceptor, &letters)?;
         let all = {
             let mut all = StateSet::with_capacity(product.model.num_states());
             all.insert_range(..);
@@ -58,20 +63,36 @@ impl Evaluator<'_> {
         let (lower, upper) = (self.note(lower), self.note(upper));
         Ok(ValueBounds { lower: of_starts(&lower.lower), upper: of_starts(&upper.upper) })
     }
+
+    /// For every state, the set of the propositions that hold in it.
+    pub(super) fn letters(&self, propositions: &[Truth]) -> Result<Vec<u64>, EvaluationError> {
+        let mut letters = vec![0u64; self.model.num_states()];
+        for (index, proposition) in propositions.iter().enumerate() {
+            for state in proposition.decided()?.ones() {
+                letters[state] |= 1 << (index % 64);
+            }
+        }
+        Ok(letters)
+    }
 }
 
-struct Product {
-    model: IntervalMdp,
+/// A model and an automaton that reads the labels of its states.
+pub(super) struct Product {
+    pub(super) model: IntervalMdp,
     /// For every state of the original, where a run that starts in it begins.
-    starts: Vec<StateId>,
+    pub(super) starts: Vec<StateId>,
     /// States from which the formula is satisfied whatever comes.
-    satisfied: StateSet,
+    pub(super) satisfied: StateSet,
     conditions: Vec<Acceptance>,
+    /// The states of the model and of the automaton that its states are.
+    pairs: Vec<(StateId, u32)>,
+    /// For every choice, the one of the model that it is, if it is one.
+    origins: Vec<Option<u64>>,
 }
 
 /// Puts states of the model and of the automaton together, as they are met.
 struct Pairs<'a> {
-    automaton: &'a mut Automaton,
+    automaton: &'a mut dyn Acceptor,
     letters: &'a [u64],
     ids: HashMap<(StateId, u32), StateId>,
     pairs: Vec<(StateId, u32)>,
@@ -94,7 +115,11 @@ impl Pairs<'_> {
 }
 
 impl Product {
-    fn new(model: &IntervalMdp, automaton: &mut Automaton, letters: &[u64]) -> Result<Self, EvaluationError> {
+    pub(super) fn new(
+        model: &IntervalMdp,
+        automaton: &mut dyn Acceptor,
+        letters: &[u64],
+    ) -> Result<Self, EvaluationError> {
         let mut pairs = Pairs { automaton, letters, ids: HashMap::new(), pairs: vec![] };
         let starts = StateId::first(model.num_states())
             .map(|state| pairs.enter(state, 0))
@@ -102,13 +127,15 @@ impl Product {
         let (mut rows, mut buffer) = (Rows::new(), RowBuffer::default());
         let mut known: HashMap<(Option<RowId>, StateId, u32), RowId> = HashMap::new();
         let mut choices = ChoicesBuilder::with_capacity(starts.len());
-        let mut satisfied = vec![];
+        let (mut satisfied, mut origins) = (vec![], vec![]);
+        let first_choices = model.choices().first_choices();
         let mut next = 0;
         while let Some(&(state, memory)) = pairs.pairs.get(next) {
             next += 1;
             if let Some(outcome) = pairs.automaton.decided(memory) {
                 satisfied.push(outcome);
                 choices.push_absorbing();
+                origins.push(None);
                 continue;
             }
             satisfied.push(false);
@@ -117,22 +144,25 @@ impl Product {
                 true => vec![None],
                 false => model.choices().rows(state).map(Some).collect(),
             };
-            for row in own {
+            for (row, number) in own.into_iter().zip(0u64..) {
+                origins.push(row.map(|_| first_choices[state.index()] + number));
                 let key = (row, if row.is_none() { state } else { StateId(0) }, memory);
                 let id = match known.get(&key) {
                     Some(&id) => id,
                     None => {
-                        let mut entries = vec![];
                         match row.map(|row| model.rows().row(row, &mut buffer)) {
-                            None => entries.push((pairs.enter(state, memory)?, 1.0, 1.0)),
+                            None => rows.push_entry(pairs.enter(state, memory)?, 1.0, 1.0),
                             Some(row) => {
-                                for ((&s, &l), &u) in row.successors.iter().zip(row.lower).zip(row.upper) {
-                                    entries.push((pairs.enter(s, memory)?, l, u));
+                                let mut entries = vec![];
+                                for (position, &successor) in row.successors.iter().enumerate() {
+                                    entries.push((pairs.enter(successor, memory)?, position));
                                 }
+                                entries.sort_unstable();
+                                entries
+                                    .into_iter()
+                                    .for_each(|(s, position)| rows.push_entry_of(s, row, position));
                             }
                         }
-                        entries.sort_unstable_by_key(|entry| entry.0);
-                        entries.into_iter().for_each(|(s, l, u)| rows.push_entry(s, l, u));
                         let id = rows.finish_row();
                         known.insert(key, id);
                         id
@@ -177,7 +207,43 @@ impl Product {
             variables: StateVariables::default(),
         };
         let model = IntervalMdp::new(parts).map_err(|error| EvaluationError::Product(error.to_string()))?;
-        Ok(Self { model, starts, satisfied: set, conditions })
+        let Pairs { pairs, .. } = pairs;
+        Ok(Self { model, starts, satisfied: set, conditions, pairs, origins })
+    }
+
+    /// What is earned in the product, where nothing is decided yet; `model` is the one that it was made of.
+    pub(super) fn rewards(&self, model: &IntervalMdp, rewards: &RewardStructure) -> RewardStructure {
+        let mut own = RewardStructure::new(&rewards.name);
+        own.states = self.pairs.iter().map(|&(state, _)| rewards.of_state(state.index())).collect();
+        let of_choice = |origin: &Option<u64>| origin.map_or(0.0, |choice| rewards.of_choice(choice));
+        own.choices = self.origins.iter().map(of_choice).collect();
+        let mut choice = 0u64;
+        for (product, &(state, _)) in (0..).zip(&self.pairs) {
+            if self.model.choices().is_absorbing(StateId(product)) {
+                choice += 1;
+                continue;
+            }
+            let (mut of_model_row, mut of_product_row) = (RowBuffer::default(), RowBuffer::default());
+            let of_model: Vec<RowId> = model.choices().rows(state).collect();
+            for (number, row) in self.model.choices().rows(StateId(product)).enumerate() {
+                let of_branches =
+                    self.origins[choice as usize].and_then(|origin| rewards.branches.get(&origin));
+                if let (Some(of_branches), Some(&original)) = (of_branches, of_model.get(number)) {
+                    let original = model.rows().row(original, &mut of_model_row);
+                    let earned = |successor: &StateId| {
+                        let (state, _) = self.pairs[successor.index()];
+                        original
+                            .successors
+                            .binary_search(&state)
+                            .map_or(0.0, |position| of_branches[position])
+                    };
+                    let row = self.model.rows().row(row, &mut of_product_row);
+                    own.branches.insert(choice, row.successors.iter().map(earned).collect());
+                }
+                choice += 1;
+            }
+        }
+        own
     }
 
     /// Where the formula is satisfied almost surely by a policy that stays; `helpful` says whether nature helps.

@@ -58,6 +58,13 @@ fn numbers_have_their_values() {
         ("R{\"time\"}minmin=? [ C, discount=0.5 ]", 3, 2.0),
         ("R{\"time\"}maxmin=? [ C<=3, discount=1/2 ]", 2, 1.75),
         ("R{\"time\"}minmin=? [ I=2 ]", 0, 1.0),
+        // Until a co-safe formula holds.
+        ("R{\"time\"}minmin=? [ X (F \"goal2\") ]", 0, 1.1 + 0.05 * 5.0 / 3.0),
+        ("R{\"time\"}minmax=? [ F ((s=5) & (F (s=4))) ]", 4, 2.0),
+        ("R{\"go\"}minmin=? [ X (F \"goal2\") ]", 6, 6.0),
+        ("R{\"go\"}minmax=? [ (F (s=6)) & !(G (s=6)) ]", 6, 12.0),
+        ("R{\"go\"}maxmin=? [ X (F \"goal2\") ]", 6, f64::INFINITY),
+        ("R{\"time\"}minmin=? [ X (X (s=3)) ]", 3, 2.0),
         ("Pmaxmin=? [ G F \"goal1\" ]", 0, 0.5),
         ("Pmaxmax=? [ (G !\"hazard\") & (G F \"goal1\") ]", 0, 0.15),
         ("Pminmin=? [ !((G !\"hazard\") & (G F \"goal1\")) ]", 0, 0.85),
@@ -137,4 +144,50 @@ fn what_does_not_fit_is_named() {
         let message = refused(text);
         assert!(message.contains(words), "{text}: {message}");
     }
+}
+
+#[test]
+fn automata_from_files_say_what_the_formula_says() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("again.hoa");
+    let text = "HOA: v1\nStates: 1\nStart: 0\nAP: 1 \"goal1\"\nAcceptance: 1 Inf(0)\n--BODY--\nState: 0\n[0] 0 {0}\n[!0] 0\n--END--\n";
+    std::fs::write(&file, text).unwrap();
+    let file = file.display().to_string();
+    for resolution in ["maxmin", "maxmax", "minmin", "minmax"] {
+        for (mapping, negation) in [("", ""), (", \"goal1\" <- s=4|s=6", ""), (", \"goal1\" <- s<3", "!")] {
+            let formula = mapping.split("<- ").nth(1).unwrap_or("\"goal1\"");
+            let of_file = evaluate(&format!("P{resolution}=? [ {negation}(HOA: {{\"{file}\"{mapping}}}) ]"));
+            let of_formula = evaluate(&format!("P{resolution}=? [ {negation}(G (F ({formula}))) ]"));
+            for state in model().initial().ones() {
+                let state = crate::model::StateId::from_index(state);
+                assert_eq!(of_file.bounds(state), of_formula.bounds(state), "{resolution} {mapping}");
+            }
+        }
+    }
+    let fails = |text: &str| {
+        let text = text.replace("FILE", &file);
+        Evaluation::new(&model(), &compound(&text), None, &SolverOptions::default()).unwrap_err().to_string()
+    };
+    let unknown = fails("Pmaxmin=? [ HOA: {\"FILE\", \"a\" <- s=1} ]");
+    assert!(unknown.contains("found no proposition \"a\"; expected one of \"goal1\""), "{unknown}");
+    assert!(fails("Pmaxmin=? [ HOA: {\"nowhere.hoa\"} ]").contains("nowhere.hoa: "));
+    std::fs::write(directory.path().join("again.hoa"), text.replace("goal1", "reached")).unwrap();
+    assert!(
+        fails("Pmaxmin=? [ HOA: {\"FILE\"} ]")
+            .contains("found the proposition \"reached\", which is no label")
+    );
+}
+
+/// Twenty nines are not 1, though the nearest double is: what stays for ever as doubles leaves in the end.
+#[test]
+fn products_keep_decimals_to_the_last_digit() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("m.tra");
+    std::fs::write(&path, "2 2 3\n0 0 0 [0.5,0.99999999999999999999] a\n0 0 1 [0,0.5] a\n1 0 1 [1,1] a\n")
+        .unwrap();
+    std::fs::write(path.with_extension("lab"), "0=\"init\" 1=\"deadlock\" 2=\"good\"\n0: 0 2\n").unwrap();
+    let model = prism::import(&path, None, Some(&path.with_extension("lab"))).unwrap().model;
+    let again = compound("Pmaxmax=? [ G (F \"good\") ]");
+    let evaluation = Evaluation::new(&model, &again, None, &SolverOptions::default()).unwrap();
+    assert_eq!(evaluation.bounds(StateId(0)), Some((0.0, 0.0)));
 }

@@ -186,6 +186,16 @@ impl Rows {
         self.upper.push(upper);
     }
 
+    /// Adds an entry with the bounds of another row's, to the last digit.
+    pub fn push_entry_of(&mut self, successor: StateId, row: Row<'_>, position: usize) {
+        self.push_entry(successor, row.lower[position], row.upper[position]);
+        for end in [End::Lower, End::Upper] {
+            if let Some(value) = row.exact_bound(end, position) {
+                self.set_exact(end, value.clone());
+            }
+        }
+    }
+
     /// Says what one of the bounds of the entry added last is exactly; its double is the nearest one.
     pub fn set_exact(&mut self, end: End, value: Exact) {
         let start = self.starts.last().copied().unwrap_or_default();

@@ -4,6 +4,7 @@ use super::parser::{Parser, Result};
 use super::tree::{Node, NodeKind};
 use super::{ParseError, ParseErrorKind};
 use std::collections::HashMap;
+use std::path::{Path, PathBuf};
 
 /// What names in a property stand for. Everything in it is free of names that stand for something else.
 #[derive(Clone, Debug, Default)]
@@ -13,6 +14,8 @@ pub struct Definitions {
     labels: HashMap<String, Node>,
     /// Constants that were given a value from outside, and whether a file declares them.
     given: HashMap<String, Node>,
+    /// Where files stand whose names are relative.
+    folder: PathBuf,
 }
 
 impl Definitions {
@@ -30,6 +33,11 @@ impl Definitions {
             self.given.insert(name, value);
         }
         Ok(())
+    }
+
+    /// Files that properties name are looked for in this folder from now on; otherwise in the one of the process.
+    pub fn look_in(&mut self, folder: &Path) {
+        folder.clone_into(&mut self.folder);
     }
 
     /// Declares a constant; what was given from outside counts more than what the file says.
@@ -73,6 +81,9 @@ impl Parser<'_> {
             }
             Ok(None) => {
                 let Node { mut kind, span, .. } = node;
+                if let NodeKind::Automaton(path) = &mut kind {
+                    path.file = definitions.folder.join(&path.file);
+                }
                 for child in kind.children_mut() {
                     let placeholder = Node::new(NodeKind::True, child.span);
                     let old = std::mem::replace(child, placeholder);

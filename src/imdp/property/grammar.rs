@@ -45,6 +45,9 @@ impl Parser<'_> {
             TokenKind::Word("X") => TemporalOperator::Next,
             TokenKind::Word("F") => TemporalOperator::Finally,
             TokenKind::Word("G") => TemporalOperator::Globally,
+            TokenKind::Word("HOA") if self.token(1).kind == TokenKind::Symbol(":") => {
+                return self.automaton();
+            }
             _ => return self.expression(),
         };
         self.advance();

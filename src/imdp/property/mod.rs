@@ -72,8 +72,8 @@ pub(crate) use columns::numbers_states;
 pub(crate) use constant::{Constant, arithmetic, call, constant};
 pub(crate) use simple::{formula, is_formula};
 pub(crate) use tree::{
-    Asked, BinaryOperator, Filter, FilterOperator, Function, Measured, Node, NodeKind, Operator, RewardPath,
-    StepBound, StepBounds, Structure, TemporalOperator, UntilOperator,
+    Asked, AutomatonPath, BinaryOperator, Filter, FilterOperator, Function, Measured, Node, NodeKind,
+    Operator, RewardPath, StepBound, StepBounds, Structure, TemporalOperator, UntilOperator,
 };
 
 #[cfg(test)]

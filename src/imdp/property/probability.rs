@@ -2,7 +2,9 @@
 
 use super::lexer::TokenKind;
 use super::parser::{Parser, Result};
-use super::tree::{Asked, Measured, Node, NodeKind, Operator, RewardPath, StepBound, Structure};
+use super::tree::{
+    Asked, AutomatonPath, Measured, Node, NodeKind, Operator, RewardPath, StepBound, Structure,
+};
 use super::{Optimum, ThresholdComparison, unsupported};
 
 impl Parser<'_> {
@@ -83,6 +85,29 @@ impl Parser<'_> {
         };
         self.expect("}", "`}`")?;
         Ok(structure)
+    }
+
+    /// `HOA: {"file", "p" <- formula, …}`
+    pub(super) fn automaton(&mut self) -> Result<Node> {
+        let start = self.span();
+        self.advance();
+        self.expect(":", "`:`")?;
+        self.expect("{", "`{` and the name of a file")?;
+        let Some(file) = self.quoted() else {
+            return Err(self.unexpected("the name of a file in the Hanoi omega-automata format, in quotes"));
+        };
+        let mut path = AutomatonPath { file: self.text(file).into(), propositions: vec![] };
+        while self.accept(",") {
+            let Some(name) = self.quoted() else {
+                return Err(self.unexpected("the name of a proposition of the automaton, in quotes"));
+            };
+            self.expect("<", "`<-` and a formula")?;
+            self.expect("-", "`<-` and a formula")?;
+            path.propositions.push((self.text(name).to_owned(), self.nested(Self::expression)?));
+        }
+        let span = start.to(self.span());
+        self.expect("}", "`}` or `,` and what a proposition means")?;
+        self.node(NodeKind::Automaton(Box::new(path)), span)
     }
 
     /// What stands in the brackets of `R`.

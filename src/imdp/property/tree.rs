@@ -34,6 +34,8 @@ pub(crate) enum NodeKind {
     Temporal(TemporalOperator, StepBounds, Box<Node>),
     /// `left U right`, `left W right` or `left R right`.
     Until(UntilOperator, StepBounds, Box<[Node; 2]>),
+    /// `HOA: {"file", …}`
+    Automaton(Box<AutomatonPath>),
     /// `P… [ … ]` or `R… [ … ]`.
     Operator(Box<Operator>),
     /// `filter(…)`
@@ -89,6 +91,14 @@ pub(crate) struct StepBound {
     pub(crate) steps: Node,
     /// `<` or `>` instead of `<=` or `>=`.
     pub(crate) is_strict: bool,
+}
+
+/// The runs that an automaton accepts, which stands in a file.
+#[derive(Clone, Debug)]
+pub(crate) struct AutomatonPath {
+    pub(crate) file: std::path::PathBuf,
+    /// What its propositions mean; those that are not listed are labels.
+    pub(crate) propositions: Vec<(String, Node)>,
 }
 
 /// What is asked of the probability of a path formula, or of an expected reward.
@@ -179,6 +189,7 @@ impl NodeKind {
             Self::Conditional(parts) => parts.iter().collect(),
             Self::Temporal(_, bounds, operand) => bounds.nodes().chain([&**operand]).collect(),
             Self::Until(_, bounds, operands) => bounds.nodes().chain(operands.iter()).collect(),
+            Self::Automaton(path) => path.propositions.iter().map(|(_, formula)| formula).collect(),
             Self::Operator(operator) => operator.nodes(),
             Self::Filter(filter) => std::iter::once(&filter.operand).chain(&filter.states).collect(),
         }
@@ -201,6 +212,7 @@ impl NodeKind {
             Self::Conditional(parts) => parts.iter_mut().collect(),
             Self::Temporal(_, bounds, operand) => bounds.nodes_mut().chain([&mut **operand]).collect(),
             Self::Until(_, bounds, operands) => bounds.nodes_mut().chain(operands.iter_mut()).collect(),
+            Self::Automaton(path) => path.propositions.iter_mut().map(|(_, formula)| formula).collect(),
             Self::Operator(operator) => operator.nodes_mut(),
             Self::Filter(filter) => std::iter::once(&mut filter.operand).chain(&mut filter.states).collect(),
         }

@@ -4,7 +4,7 @@ use super::constant::{Constant, constant};
 use super::parser::{Parser, Result};
 use super::tree::{
     Asked, BinaryOperator, Filter, FilterOperator, Function, Measured, Node, NodeKind, Operator, RewardPath,
-    StepBound, StepBounds, Structure, TemporalOperator,
+    StepBound, StepBounds, Structure, TemporalOperator, UntilOperator,
 };
 use super::{ParseErrorKind, Relation, unsupported};
 use num_traits::ToPrimitive;
@@ -22,6 +22,7 @@ pub(super) enum Type {
 
 const FORMULA: &str = "a formula (compare a number with something, as in x=1)";
 const NUMBER: &str = "a number (a variable, or + - * / of numbers)";
+const REWARD_PATH: &str = "F and a formula, another co-safe path formula, C, C<=k or I=k";
 const PATH: &str = "a path formula, with one of the operators X, F, G, U, W and R";
 
 impl Parser<'_> {
@@ -63,6 +64,10 @@ impl Parser<'_> {
                 if inside == Type::Path && !bounds.is_none() {
                     return Err(self.error_at(node.span, unsupported::BOUNDED_LTL));
                 }
+                Type::Path
+            }
+            NodeKind::Automaton(path) => {
+                path.propositions.iter().try_for_each(|(_, formula)| self.state_formula(formula))?;
                 Type::Path
             }
             NodeKind::Operator(operator) => self.operator_type(operator)?,
@@ -153,6 +158,7 @@ impl Parser<'_> {
                 if self.infer(path)? != Type::Path {
                     return Err(self.wrong_kind(path, PATH));
                 }
+                self.no_automaton_inside(path)?;
             }
             Measured::Reward(structure, path) => {
                 if let Structure::Number(number) = structure {
@@ -170,15 +176,34 @@ impl Parser<'_> {
         }
     }
 
+    /// An automaton is a path formula as a whole, or its negation.
+    fn no_automaton_inside(&self, path: &Node) -> Result<()> {
+        match &path.kind {
+            NodeKind::Automaton(_) => Ok(()),
+            NodeKind::Not(operand) => self.no_automaton_inside(operand),
+            kind => kind.children().into_iter().try_for_each(|child| self.no_automaton(child)),
+        }
+    }
+
+    fn no_automaton(&self, node: &Node) -> Result<()> {
+        match &node.kind {
+            NodeKind::Automaton(_) => Err(self.error_at(node.span, unsupported::AUTOMATON)),
+            // What stands in its brackets has been looked at.
+            NodeKind::Operator(_) => Ok(()),
+            kind => kind.children().into_iter().try_for_each(|child| self.no_automaton(child)),
+        }
+    }
+
     fn reward_path_type(&self, path: &RewardPath) -> Result<()> {
         match path {
             RewardPath::Reach(node) => match &node.kind {
-                NodeKind::Temporal(TemporalOperator::Finally, bounds, operand) if bounds.is_none() => {
-                    self.state_formula(operand)
-                }
+                _ if is_cosafe(node, true) => match self.infer(node)? {
+                    Type::Path => Ok(()),
+                    _ => Err(self.wrong_kind(node, REWARD_PATH)),
+                },
                 _ => match self.infer(node)? {
                     Type::Path => Err(self.error_at(node.span, unsupported::REWARD_PATH)),
-                    _ => Err(self.wrong_kind(node, "F and a formula, C, C<=k or I=k")),
+                    _ => Err(self.wrong_kind(node, REWARD_PATH)),
                 },
             },
             RewardPath::Cumulative(bound, discount) => {
@@ -266,5 +291,38 @@ impl Parser<'_> {
             return Err(self.error_at(node.span, ParseErrorKind::Undefined { name: name.clone() }));
         }
         node.kind.children().into_iter().try_for_each(|child| self.no_constant_without_value(child))
+    }
+}
+
+/// Whether a path formula has `X`, `F` and `U` where it counts positively, and `X`, `G`, `W` and `R` elsewhere only: then a
+/// beginning of a run shows that it holds.
+fn is_cosafe(node: &Node, is_positive: bool) -> bool {
+    match &node.kind {
+        NodeKind::Not(operand) => is_cosafe(operand, !is_positive),
+        NodeKind::And(operands) | NodeKind::Or(operands) => {
+            operands.iter().all(|operand| is_cosafe(operand, is_positive))
+        }
+        NodeKind::Binary(BinaryOperator::Implies, left, right) => {
+            is_cosafe(left, !is_positive) && is_cosafe(right, is_positive)
+        }
+        NodeKind::Binary(BinaryOperator::Iff, left, right) => {
+            [left, right].into_iter().all(|operand| is_cosafe(operand, true) && is_cosafe(operand, false))
+        }
+        NodeKind::Temporal(operator, bounds, operand) => {
+            let fits = match operator {
+                TemporalOperator::Next => true,
+                TemporalOperator::Finally => is_positive || bounds.upper.is_some(),
+                TemporalOperator::Globally => !is_positive || bounds.upper.is_some(),
+            };
+            fits && is_cosafe(operand, is_positive)
+        }
+        NodeKind::Until(operator, bounds, operands) => {
+            let is_until = *operator == UntilOperator::Until;
+            (is_until == is_positive || bounds.upper.is_some())
+                && operands.iter().all(|operand| is_cosafe(operand, is_positive))
+        }
+        NodeKind::Automaton(_) => false,
+        // What is no path formula is known at once.
+        _ => true,
     }
 }

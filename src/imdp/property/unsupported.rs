@@ -13,6 +13,10 @@ pub(super) const BOUNDED_LTL: ParseErrorKind = unsupported(
     "step bounds on nested path formulas are",
     "write X that often, or bound the formula as a whole",
 );
+pub(super) const AUTOMATON: ParseErrorKind = unsupported(
+    "an automaton inside of another path formula is",
+    "let the automaton accept what the whole formula means",
+);
 pub(super) const PATH_OUTSIDE: ParseErrorKind =
     unsupported("path formulas outside of P are", "put it into P…=? [ … ]");
 pub(super) const REWARD_PATH: ParseErrorKind =

@@ -46,6 +46,7 @@ mod working_memory;
 pub use answer::{Answer, AnswerError};
 pub use delay::solve_delayed;
 pub use expectation::WorstExpectation;
+pub(crate) use graph::strong_components;
 pub(crate) use omega::{Acceptance, accepting_states};
 pub use options::{Control, SolverOptions, Status};
 pub use policy::{NO_CHOICE, Policy};

@@ -202,6 +202,17 @@ mod tests {
     use super::*;
 
     #[test]
+    fn weights_are_numbers_however_far() {
+        assert_eq!(inverse_power(f64::INFINITY, 3), 1);
+        assert_eq!(offset_weight(40, u64::MAX), 1);
+        assert_eq!(goal_weight(u32::MAX), 1);
+        // The longest axis that there can be, looked at from its ends.
+        let far = i64::from(Grid::MAX_CELLS);
+        let total = total_offset_weight(&[(-far, -far), (far, far), (0, 1)]);
+        assert_eq!(total, BigInt::from(2));
+    }
+
+    #[test]
     fn all_events_together_cost_what_was_given() {
         for lower in [LowerBounds::OfNoise, LowerBounds::InsideWindows] {
             let offsets = [(-3, 4), (-2, 2)];

@@ -13,7 +13,8 @@ fn ground(kinds: &[u32]) -> Ground {
     let exact = |x: f64| vec![from_decimal(x).unwrap(); 3];
     let grid = Grid::new(&exact(0.0), &exact(1.0), &CELLS).unwrap();
     // Every fifth kind is lost, and every fifth a goal cell.
-    let state = |cell: CellId| StateId(if kinds[cell.index()] < 2 { kinds[cell.index()] } else { cell.0 + 2 });
+    let state =
+        |cell: CellId| StateId(if kinds[cell.index()] < 2 { kinds[cell.index()] } else { cell.0 + 2 });
     Ground::new(&grid, None, state)
 }
 

@@ -11,5 +11,5 @@ pub(super) use choice_tree::ChoiceTree;
 pub(super) use decide::{certain, possible_within};
 pub(super) use end_components::{Candidates, can_stay, end_components};
 pub(super) use ranking::ranks;
-pub(super) use tarjan::strong_components;
+pub(crate) use tarjan::strong_components;
 pub(super) use zero_one::{stays, zero_one};

@@ -4,7 +4,7 @@
 ///
 /// `edges(v, out)` lists the successors of `v < nodes`. Tarjan's algorithm with its own stack, so that long
 /// chains do not overflow the thread's.
-pub(in crate::solver) fn strong_components(
+pub(crate) fn strong_components(
     nodes: usize,
     roots: impl Iterator<Item = usize>,
     mut edges: impl FnMut(usize, &mut Vec<u32>),

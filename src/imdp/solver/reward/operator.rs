@@ -57,7 +57,7 @@ impl Operator {
                     _ => {
                         let source = model.rows().row(row, &mut buffer);
                         for (position, &successor) in source.successors.iter().enumerate() {
-                            let upper = if possible(successor) { source.upper[position] } else { 0.0 };
+                            let is_possible = possible(successor);
                             let successor = match of_branches.map(|of_branches| of_branches[position]) {
                                 None => successor,
                                 Some(reward) => {
@@ -65,7 +65,11 @@ impl Operator {
                                     StateId::from_index(model_states + branches.len() - 1)
                                 }
                             };
-                            rows.push_entry(successor, source.lower[position], upper);
+                            match is_possible {
+                                true => rows.push_entry_of(successor, source, position),
+                                // Nature can leave it out, so its lower bound is 0.
+                                false => rows.push_entry(successor, 0.0, 0.0),
+                            }
                         }
                         let local = rows.finish_row();
                         if of_branches.is_none() {
