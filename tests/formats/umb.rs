@@ -270,7 +270,7 @@ fn what_may_be_left_out_may_be_left_out() {
     let mut parts = parts(&tiny::model());
     let mut choices = ChoicesBuilder::with_capacity(5);
     (0..5).for_each(|_| choices.push_absorbing());
-    (parts.choices, parts.rows, parts.kind) = (choices.finish(), Rows::new(), ModelKind::Idtmc);
+    (parts.choices, parts.rows, parts.kind) = (choices.finish(), Rows::new().into(), ModelKind::Idtmc);
     parts.actions = ActionNames::None;
     let model = IntervalMdp::new(parts).unwrap();
     let mut all = members(&bytes(&model, Compression::None));
