@@ -3,7 +3,7 @@
 use super::AbstractionError;
 use super::enabling::Enabling;
 use super::hazards::Hazards;
-use super::landings::Placements;
+use super::action_counts::TargetPlacements;
 use super::pac::Prepared;
 use super::steering::Steering;
 use super::windows::Windows;
@@ -13,7 +13,7 @@ use imdp::progress::Progress;
 
 /// All that is known before the choices of the model are.
 pub(super) struct Base<'a> {
-    pub(super) placements: Placements<'a>,
+    pub(super) placements: TargetPlacements<'a>,
     pub(super) intervals: Intervals,
     pub(super) enabling: Enabling,
 }
@@ -50,7 +50,7 @@ impl<'a> Base<'a> {
         let (law, targets) = (&steering.law, &steering.targets);
         let is_pac = matches!(problem.probabilities(), Probabilities::Pac { .. });
         let tolerance = is_pac.then(|| law.steering_error(&steering.extent));
-        let placements = Placements::new(problem.grid(), targets, tolerance);
+        let placements = TargetPlacements::new(problem.grid(), targets, tolerance);
         let hazards = Hazards::in_between(problem);
         let intervals = match problem.probabilities() {
             Probabilities::Pac { beta, sweep, discard } => {

@@ -1,6 +1,6 @@
 //! How noise becomes cells: where `d + δ` lies, counted from an origin cell.
 
-use super::landing::Spread;
+use super::cell_counts::CellBox;
 use super::targets::Alignment;
 use crate::noise::NoiseSample;
 use crate::partition::Grid;
@@ -65,16 +65,16 @@ impl Placement {
     }
 
     /// The cells in which noise `δ` may put the state.
-    pub fn spread(&self, noise: NoiseSample<'_>) -> Spread {
+    pub fn spread(&self, noise: NoiseSample<'_>) -> CellBox {
         let along = |(j, axis): (usize, &AxisPlacement)| axis.spread(noise.value(j), noise.error(j));
         let (lower, upper) = self.axes.iter().enumerate().map(along).unzip();
-        Spread { lower, upper }
+        CellBox { lower, upper }
     }
 
     /// The cells that some noise between `lower` and `upper` may put the state in.
-    pub fn spread_of_box(&self, lower: &[f64], upper: &[f64]) -> Spread {
+    pub fn spread_of_box(&self, lower: &[f64], upper: &[f64]) -> CellBox {
         let spread = |noise| self.spread(NoiseSample::exact(noise));
-        Spread { lower: spread(lower).lower, upper: spread(upper).upper }
+        CellBox { lower: spread(lower).lower, upper: spread(upper).upper }
     }
 
     /// The noise, in dimension `j`, that it takes at least to move to coordinate `o`: 0 if none.

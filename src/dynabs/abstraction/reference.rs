@@ -7,8 +7,8 @@
 
 use super::count_table::CountTable;
 use super::footprint::need_of_rows;
-use super::landing::Landing;
-use super::landings::{Landings, Placements};
+use super::cell_counts::CellCounts;
+use super::action_counts::{ActionCounts, TargetPlacements};
 use super::row_tasks::build_rows;
 use super::states::StateSpace;
 use super::stencil::{Chosen, Ground, Runs, Special, Stencil, StencilRows};
@@ -27,12 +27,12 @@ pub(super) fn build(
     problem: &Problem,
     beta_per_interval: f64,
     targets: &Targets,
-    placements: Placements<'_>,
+    placements: TargetPlacements<'_>,
     states: &StateSpace,
     progress: &dyn Progress,
 ) -> Result<RowSet, TooLarge> {
     let grid = problem.grid();
-    let landings = Landings::new(&problem.noise().samples, placements);
+    let landings = ActionCounts::new(&problem.noise().samples, placements);
     if landings.shared().is_none() {
         need_of_rows(problem, targets.len() as u64 * landings.row_length(grid) as u64).check()?;
     }
@@ -77,14 +77,14 @@ pub(super) fn build(
 
 /// The cells that samples land in.
 struct Hits<'a> {
-    landing: Cow<'a, Landing>,
+    landing: Cow<'a, CellCounts>,
     runs: Runs,
     /// How many samples land in the cells before each position in the runs, and in all.
     before: Vec<u32>,
 }
 
 impl<'a> Hits<'a> {
-    fn new(landing: Cow<'a, Landing>, ground: &Ground) -> Self {
+    fn new(landing: Cow<'a, CellCounts>, ground: &Ground) -> Self {
         let number = |position: usize| landing.counts()[position].certain[0];
         let runs = Runs::new(landing.table(), ground, |position| number(position) > 0);
         let mut before = vec![0];

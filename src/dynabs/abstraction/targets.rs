@@ -1,6 +1,6 @@
 //! The points that actions steer to.
 
-use crate::partition::{Axis, Grid};
+use crate::partition::{GridAxis, Grid};
 use crate::problem::TargetPoints;
 use imdp::numeric::{Rational, to_f64};
 use num_traits::ToPrimitive;
@@ -152,7 +152,7 @@ impl Targets {
 }
 
 /// The index of the cell that contains `x`, or −1 below the partition and the number of cells above it.
-fn cell_along(axis: &Axis, x: &Rational) -> i32 {
+fn cell_along(axis: &GridAxis, x: &Rational) -> i32 {
     let outside = if x < axis.lower() { -1 } else { axis.cells() as i32 };
     axis.locate(x).map_or(outside, |index| index as i32)
 }

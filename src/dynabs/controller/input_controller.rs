@@ -38,7 +38,7 @@ impl InputController {
     pub fn new(problem: &InputProblem, abstraction: &InputAbstraction, solution: &LandingSolution) -> Self {
         let grid = problem.grid();
         let cells = grid.num_cells();
-        let period = |(axis, &periodic): (&crate::partition::Axis, &bool)| {
+        let period = |(axis, &periodic): (&crate::partition::GridAxis, &bool)| {
             if periodic { to_f64(&(axis.upper() - axis.lower())) } else { 0.0 }
         };
         let lower = &solution.values.lower;

@@ -17,14 +17,14 @@ impl CellId {
 
 /// One dimension of a grid: `[lower, upper)` cut into equal cells.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Axis {
+pub struct GridAxis {
     lower: Rational,
     upper: Rational,
     width: Rational,
     cells: u32,
 }
 
-impl Axis {
+impl GridAxis {
     /// The number of cells.
     pub fn cells(&self) -> u32 {
         self.cells
@@ -80,7 +80,7 @@ impl Axis {
 /// A box `[lower, upper) ⊂ ℝⁿ` cut into equal half-open cells.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Grid {
-    axes: Vec<Axis>,
+    axes: Vec<GridAxis>,
     /// How far apart in row-major order two neighbours in each dimension are.
     strides: Vec<u32>,
     num_cells: u32,
@@ -129,7 +129,7 @@ impl Grid {
                 return Err(GridError::EmptyAxis { dimension });
             }
             let width = (&upper - &lower) / Rational::from_integer(cells.into());
-            axes.push(Axis { lower, upper, width, cells });
+            axes.push(GridAxis { lower, upper, width, cells });
         }
         let product: BigInt = cells.iter().map(|&n| BigInt::from(n)).product();
         let num_cells = product.to_u32().filter(|&n| n <= Self::MAX_CELLS);
@@ -152,7 +152,7 @@ impl Grid {
     }
 
     /// The axes.
-    pub fn axes(&self) -> &[Axis] {
+    pub fn axes(&self) -> &[GridAxis] {
         &self.axes
     }
 
@@ -184,7 +184,7 @@ impl Grid {
 
     /// `max |x_j|` over the grid, per dimension.
     pub fn magnitudes(&self) -> Vec<f64> {
-        self.axes.iter().map(Axis::magnitude).collect()
+        self.axes.iter().map(GridAxis::magnitude).collect()
     }
 
     /// Whether every cell is as wide as those of `other`, whose faces these are multiples of: then each

@@ -1,7 +1,7 @@
 //! Systems: how the state moves, where it takes cells, and the feedback laws that steer it.
 //!
 //! For steering to targets: linear systems, grouping of steps, LQR, the two-layer closed loop, the affine feedback
-//! law. For any system: [`expression`]s, [`Interval`]s, [`Mode`]s, and the [`Images`] of cells under inputs.
+//! law. For any system: [`expression`]s, [`Interval`]s, [`Mode`]s, and the [`ImageMap`] of cells under inputs.
 
 pub mod expression;
 mod feedback;
@@ -20,7 +20,7 @@ mod two_layer;
 pub use feedback::Feedback;
 pub use gain::narrowing_gain;
 pub use grouping::{TooManyDigits, group, require_digits, smallest_group};
-pub use image::{ImageError, ImageScratch, Images, Lattice, LatticeRange};
+pub use image::{ImageError, ImageScratch, ImageMap, Lattice, LatticeRange};
 pub use interval::Interval;
 pub use law::{Extent, FeedbackLaw, SteeringConstraint, decimal_gain, lower_layer_violation};
 pub use linear_system::LinearSystem;

@@ -1,6 +1,6 @@
 //! Results of properties, and values of states.
 
-use super::{DiffOptions, Differences, Record, RecordedResult, Section, Values};
+use super::{DiffOptions, Differences, Record, RecordedResult, Section, RecordedValues};
 
 /// Compares the answers to properties that both sides have, paired by their text.
 pub(super) fn diff_results(left: &Record, right: &Record, options: &DiffOptions, out: &mut Differences) {
@@ -47,7 +47,7 @@ pub(super) fn diff_values(left: &Record, right: &Record, options: &DiffOptions, 
     let (Some(a), Some(b)) = (&left.values, &right.values) else { return };
     let mut section = Section::new("values", options.most);
     let lengths = match (a, b) {
-        (Values::Numbers(a), Values::Numbers(b)) => {
+        (RecordedValues::Numbers(a), RecordedValues::Numbers(b)) => {
             for (state, (&x, &y)) in a.iter().zip(b).enumerate().take(comparable(a.len(), b.len())) {
                 if let Some(by) = options.tolerance.excess(x, y) {
                     section.add(1, Some(by), || (format!("state {state}"), x.to_string(), y.to_string()));
@@ -55,7 +55,7 @@ pub(super) fn diff_values(left: &Record, right: &Record, options: &DiffOptions, 
             }
             (a.len(), b.len())
         }
-        (Values::Verdicts(a), Values::Verdicts(b)) => {
+        (RecordedValues::Verdicts(a), RecordedValues::Verdicts(b)) => {
             for (state, (x, y)) in
                 a.iter().zip(b).enumerate().take(comparable(a.len(), b.len())).filter(|(_, (x, y))| x != y)
             {

@@ -32,7 +32,7 @@ pub use digest::{LabelDigest, ModelDigest, Sizes};
 pub use error::CompareError;
 pub use open::{collect, open};
 pub use policy_file::PolicyFile;
-pub use record::{Record, Values};
+pub use record::{Record, RecordedValues};
 pub use reference::Reference;
 pub use results::RecordedResult;
 pub use tolerance::Tolerance;

@@ -1,6 +1,6 @@
 //! Finding out what a path holds.
 
-use super::{CompareError, PolicyFile, Record, RecordedResult, Reference, Sizes, Values};
+use super::{CompareError, PolicyFile, Record, RecordedResult, Reference, Sizes, RecordedValues};
 use crate::files;
 use crate::formats::{Format, bmdp};
 use crate::property::{Definitions, Entry, Inquiry, Property, parse_document};
@@ -153,17 +153,17 @@ impl From<Reference> for Record {
             sizes: Some(reference.sizes),
             digest: Some(reference.model),
             results: reference.results,
-            values: Some(reference.values).filter(|values| !values.is_empty()).map(Values::Numbers),
+            values: Some(reference.values).filter(|values| !values.is_empty()).map(RecordedValues::Numbers),
             ..Self::default()
         }
     }
 }
 
-fn parse_values(path: &Path, text: &str) -> Result<Values, CompareError> {
+fn parse_values(path: &Path, text: &str) -> Result<RecordedValues, CompareError> {
     let lines: Vec<&str> = text.lines().map(str::trim).collect();
     let is_verdict = |line: &&str| ["true", "false", "undecided"].contains(line);
     if !lines.is_empty() && lines.iter().all(is_verdict) {
-        return Ok(Values::Verdicts(lines.into_iter().map(str::to_owned).collect()));
+        return Ok(RecordedValues::Verdicts(lines.into_iter().map(str::to_owned).collect()));
     }
     let numbers = (1..).zip(&lines).map(|(number, line)| {
         line.parse().map_err(|_| CompareError::Unusable {
@@ -172,7 +172,7 @@ fn parse_values(path: &Path, text: &str) -> Result<Values, CompareError> {
             expected: "a number in every line, or true, false or undecided in every line",
         })
     });
-    numbers.collect::<Result<_, _>>().map(Values::Numbers)
+    numbers.collect::<Result<_, _>>().map(RecordedValues::Numbers)
 }
 
 fn parse<T: serde::de::DeserializeOwned>(

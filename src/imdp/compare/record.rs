@@ -23,7 +23,7 @@ pub struct Record {
     /// Answers to properties.
     pub results: Vec<RecordedResult>,
     /// The answer in every state, to the first property.
-    pub values: Option<Values>,
+    pub values: Option<RecordedValues>,
     /// A policy for the first property.
     pub policy: Option<PolicyFile>,
     /// What the user should know about it.
@@ -32,7 +32,7 @@ pub struct Record {
 
 /// The answer to a property in every state.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Values {
+pub enum RecordedValues {
     /// Lower bounds.
     Numbers(Vec<f64>),
     /// `true`, `false` or `undecided`, for thresholds.
@@ -69,7 +69,7 @@ impl Record {
         }
         let answer = answer(model, property)?;
         if first && self.values.is_none() {
-            self.values = Some(Values::Numbers(answer.values.lower.clone()));
+            self.values = Some(RecordedValues::Numbers(answer.values.lower.clone()));
         }
         if !known {
             self.results.push(RecordedResult {

@@ -1,7 +1,7 @@
 //! Reference files: what a model and its values are known to be.
 
 use super::compact_json::compact_json;
-use super::{CompareError, ModelDigest, Record, RecordedResult, Sizes, Values};
+use super::{CompareError, ModelDigest, Record, RecordedResult, Sizes, RecordedValues};
 use serde::{Deserialize, Serialize};
 
 const FORMAT: &str = "dynabs reference";
@@ -37,7 +37,7 @@ impl Reference {
         let model =
             record.model.as_ref().ok_or_else(|| CompareError::NoModel { path: record.name.clone() })?;
         let values = match &record.values {
-            Some(Values::Numbers(values)) => values.iter().copied().map(twelve_digits).collect(),
+            Some(RecordedValues::Numbers(values)) => values.iter().copied().map(twelve_digits).collect(),
             _ => vec![],
         };
         Ok(Self {

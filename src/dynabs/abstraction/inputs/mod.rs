@@ -6,11 +6,11 @@
 mod resolution;
 mod tables;
 
-use crate::landing::{Aim, Axis, Images as LandedImages, Landing, LandingError, Question};
+use crate::landing::{Aim, Axis, Images, Landing, LandingError, Question};
 use crate::noise::known::Distribution;
 use crate::partition::{CellId, CellKind};
 use crate::problem::InputProblem;
-use crate::system::{ImageError, Images, Lattice};
+use crate::system::{ImageError, ImageMap, Lattice};
 use imdp::model::{MemoryError, require_memory};
 use imdp::property::{PathFormula, Property, Resolution, StateFormula};
 use std::time::{Duration, Instant};
@@ -26,7 +26,7 @@ const BYTES_OF_CELL: u64 = 64;
 #[derive(Clone, Debug)]
 pub struct InputAbstraction {
     landing: Landing,
-    images: LandedImages,
+    images: Images,
     open: Vec<u32>,
     goal: Vec<bool>,
     aim: Aim,
@@ -73,14 +73,14 @@ impl InputAbstraction {
         if inputs.is_empty() {
             return Err(InputsError::NothingEnabled);
         }
-        let images = Images::new(problem.mode(), problem.feedback(), grid, lattice, inputs);
+        let images = ImageMap::new(problem.mode(), problem.feedback(), grid, lattice, inputs);
         let tables = Tables::new(grid, &images, inputs.len())?;
         let tabulated = start.elapsed();
 
         let kinds = problem.labels();
         let ordinary: Vec<u32> =
             kinds.iter().filter(|(_, kind)| *kind == CellKind::Ordinary).map(|(cell, _)| cell.0).collect();
-        let extent = LandedImages::extent(&tables, &ordinary, grid.dimension());
+        let extent = Images::extent(&tables, &ordinary, grid.dimension());
         let axis = |j: usize| {
             let cells = grid.axes()[j].cells() as usize;
             let noise = problem.noise()[j].as_ref().map(|noise: &Distribution| {
@@ -100,7 +100,7 @@ impl InputAbstraction {
             "the images of all cells and inputs",
             BYTES_OF_PAIR * pairs + landing.bytes() + BYTES_OF_CELL * cells,
         )?;
-        let images = LandedImages::new(&tables, &ordinary, landing.axes())?;
+        let images = Images::new(&tables, &ordinary, landing.axes())?;
         let open = images.acting();
         let aim = problem.objective().aim();
         let phases = vec![("images", tabulated), ("landing", start.elapsed() - tabulated)];

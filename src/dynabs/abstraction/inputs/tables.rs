@@ -3,14 +3,14 @@
 use super::InputsError;
 use crate::landing::{ImageSource, SubCells};
 use crate::partition::{CellId, Grid};
-use crate::system::{ImageError, ImageScratch, Images, LatticeRange};
+use crate::system::{ImageError, ImageScratch, ImageMap, LatticeRange};
 use rayon::prelude::*;
 use std::cell::RefCell;
 
 /// The images of all cells under the inputs that are enabled.
 pub(super) struct Tables<'a> {
     grid: &'a Grid,
-    images: &'a Images,
+    images: &'a ImageMap,
     inputs: usize,
     /// By row: its ranges over the product of the coordinates that it depends on, or nothing if it is computed anew.
     ranges: Vec<Option<Vec<LatticeRange>>>,
@@ -28,7 +28,7 @@ impl<'a> Tables<'a> {
     ///
     /// # Errors
     /// The first [`ImageError`], by row and cell, where a row has a table.
-    pub(super) fn new(grid: &'a Grid, images: &'a Images, inputs: usize) -> Result<Self, InputsError> {
+    pub(super) fn new(grid: &'a Grid, images: &'a ImageMap, inputs: usize) -> Result<Self, InputsError> {
         let table = |row: usize| -> Result<Option<Vec<LatticeRange>>, ImageError> {
             let lengths: Vec<u32> = images.depends_on(row).iter().map(|&j| grid.axes()[j].cells()).collect();
             let entries: u64 = lengths.iter().map(|&n| u64::from(n)).product();

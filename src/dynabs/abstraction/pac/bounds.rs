@@ -1,6 +1,6 @@
 //! Clopper–Pearson bounds for every count and level that occur, each computed once.
 
-use super::super::landing::Count;
+use super::super::cell_counts::Count;
 use super::super::windows::WINDOWS;
 use super::levels::EventLevels;
 use crate::statistics::{lower_bound, upper_bound};

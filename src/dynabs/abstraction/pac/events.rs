@@ -1,7 +1,7 @@
 //! The events of cells, and their intervals.
 
-use super::super::landing::{Count, Landing, Spread};
-use super::super::landings::Landings;
+use super::super::cell_counts::{Count, CellCounts, CellBox};
+use super::super::action_counts::ActionCounts;
 use super::super::targets::Targets;
 use super::bounds::{BoundTable, Interval};
 use crate::problem::Problem;
@@ -9,12 +9,12 @@ use rayon::prelude::*;
 
 /// The events of cells that occur: counts, and squared distances from the target's cell.
 pub(super) fn cell_events(
-    landings: &Landings<'_>,
+    landings: &ActionCounts<'_>,
     targets: &Targets,
     problem: &Problem,
 ) -> impl Iterator<Item = (Count, u64)> {
     let grid = problem.grid();
-    let events = |landing: &Landing, from: &[i32]| {
+    let events = |landing: &CellCounts, from: &[i32]| {
         let squares = squared_distances(landing.table(), from);
         landing.counts().iter().copied().zip(squares).collect::<Vec<_>>()
     };
@@ -35,13 +35,13 @@ pub(super) fn cell_events(
 }
 
 /// The intervals of all cells of a landing's table.
-pub(super) fn intervals(landing: &Landing, from: &[i32], cells: &BoundTable<u64>) -> Vec<Interval> {
+pub(super) fn intervals(landing: &CellCounts, from: &[i32], cells: &BoundTable<u64>) -> Vec<Interval> {
     let squares = squared_distances(landing.table(), from);
     landing.counts().iter().zip(squares).map(|(&count, square)| cells.get(count, square)).collect()
 }
 
 /// The squared distances, in cells, of all cells of a table from one of them.
-fn squared_distances(table: &Spread, from: &[i32]) -> Vec<u64> {
+fn squared_distances(table: &CellBox, from: &[i32]) -> Vec<u64> {
     let mut squares = Vec::with_capacity(table.volume());
     table.for_each(|cell| {
         let along = |(&a, &b): (&i32, &i32)| (i64::from(a) - i64::from(b)).pow(2) as u64;

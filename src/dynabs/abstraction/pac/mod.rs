@@ -73,8 +73,8 @@ mod prepared;
 
 use super::AbstractionError;
 use super::footprint::need_of_rows;
-use super::landing::{Landing, RegionCounts, Spread};
-use super::landings::{Landings, Placements};
+use super::cell_counts::{CellCounts, RegionCounts, CellBox};
+use super::action_counts::{ActionCounts, TargetPlacements};
 use super::outcomes::{Outcome, Outcomes};
 use super::states::{FAILED, REACHED, StateSpace};
 use super::stencil::{BoxCount, Ground, Hits, Special, Stencil, StencilRows};
@@ -98,7 +98,7 @@ use std::sync::Arc;
 pub(super) struct PacRows<'a> {
     problem: &'a Problem,
     targets: &'a Targets,
-    landings: Landings<'a>,
+    landings: ActionCounts<'a>,
     ground: Arc<Ground>,
     lost_cells: BoxCount,
     goal_cells: BoxCount,
@@ -120,14 +120,14 @@ impl<'a> PacRows<'a> {
         problem: &'a Problem,
         prepared: Prepared,
         targets: &'a Targets,
-        placements: Placements<'a>,
+        placements: TargetPlacements<'a>,
         states: &StateSpace,
         outcomes: &Outcomes,
     ) -> Result<Self, AbstractionError> {
         let (grid, samples) = (problem.grid(), &problem.noise().samples);
         let levels = &prepared.levels;
         let inside_only = levels.lower_bounds() == LowerBounds::InsideWindows;
-        let landings = Landings::in_windows(samples, placements, prepared.windows.clone(), inside_only);
+        let landings = ActionCounts::in_windows(samples, placements, prepared.windows.clone(), inside_only);
         if landings.shared().is_none() {
             let entries = targets.len() as u64 * landings.row_length(grid) as u64;
             need_of_rows(problem, entries).check()?;
@@ -265,13 +265,13 @@ impl<'a> PacRows<'a> {
 
 /// One stencil per window, in coordinates of the landing.
 fn stencils(
-    landing: &Landing,
-    windows: &[Spread],
+    landing: &CellCounts,
+    windows: &[CellBox],
     ground: &Ground,
     intervals: &[Interval],
     unseen: &[f64],
 ) -> Vec<Stencil> {
-    let stencil = |(window, hull): (usize, &Spread)| {
+    let stencil = |(window, hull): (usize, &CellBox)| {
         let mut places = Vec::with_capacity(hull.volume());
         hull.for_each(|cell| places.push(landing.table().position(cell)));
         let usual = (0.0, round_decimal_up(unseen[window], DIGITS).min(1.0));
@@ -285,7 +285,7 @@ fn stencils(
 
 /// How many samples land in the regions of the task, per action.
 fn regions(
-    landings: &Landings<'_>,
+    landings: &ActionCounts<'_>,
     targets: &Targets,
     problem: &Problem,
     ground: &Ground,

@@ -2,7 +2,7 @@
 
 use super::super::AbstractionError;
 use super::super::hazards::Hazards;
-use super::super::landings::Placements;
+use super::super::action_counts::TargetPlacements;
 use super::super::targets::Targets;
 use super::super::windows::{Stack, Windows, shape_samples};
 use super::bounds::{DIGITS, SampleSize};
@@ -37,7 +37,7 @@ impl Prepared {
         problem: &Problem,
         (beta, sweep, discard): (&Rational, u64, usize),
         targets: &Targets,
-        placements: &Placements<'_>,
+        placements: &TargetPlacements<'_>,
         hazards: Option<&Hazards>,
     ) -> Result<Self, AbstractionError> {
         let (grid, noise) = (problem.grid(), problem.noise());

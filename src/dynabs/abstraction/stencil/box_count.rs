@@ -1,6 +1,6 @@
 //! How many cells of a kind lie in a box.
 
-use super::super::landing::Spread;
+use super::super::cell_counts::CellBox;
 use super::Ground;
 use imdp::model::StateId;
 
@@ -29,7 +29,7 @@ impl BoxCount {
     }
 
     /// Those in the part of a box at `origin` that lies in the grid.
-    pub(in super::super) fn of(&self, hull: &Spread, origin: &[i32]) -> u32 {
+    pub(in super::super) fn of(&self, hull: &CellBox, origin: &[i32]) -> u32 {
         let n = origin.len();
         let side = |j: usize| {
             let lower = (hull.lower[j] + origin[j]).max(0);

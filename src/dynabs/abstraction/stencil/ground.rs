@@ -1,6 +1,6 @@
 //! The cells that rows lie on, and what they are to them.
 
-use super::super::landing::Spread;
+use super::super::cell_counts::CellBox;
 use super::super::targets::Targets;
 use crate::partition::{CellId, Grid};
 use imdp::model::StateId;
@@ -51,7 +51,7 @@ impl Ground {
     }
 
     /// Whether a box at `origin` lies in the grid altogether.
-    pub(in super::super) fn contains(&self, hull: &Spread, origin: &[i32]) -> bool {
+    pub(in super::super) fn contains(&self, hull: &CellBox, origin: &[i32]) -> bool {
         (self.cells.iter().enumerate())
             .all(|(j, &cells)| hull.lower[j] + origin[j] >= 0 && hull.upper[j] + origin[j] < cells)
     }
@@ -67,7 +67,7 @@ impl Ground {
     }
 
     /// How many cells of a box at `origin` lie in the grid.
-    pub(in super::super) fn volume(&self, hull: &Spread, origin: &[i32]) -> u32 {
+    pub(in super::super) fn volume(&self, hull: &CellBox, origin: &[i32]) -> u32 {
         let along = |(j, &cells): (usize, &i32)| {
             let lower = (hull.lower[j] + origin[j]).max(0);
             ((hull.upper[j] + origin[j]).min(cells - 1) - lower + 1).max(0) as u32

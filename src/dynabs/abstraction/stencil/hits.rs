@@ -1,6 +1,6 @@
 //! How many samples land in cells of each kind, counted along runs.
 
-use super::super::landing::{Count, Landing, RegionCounts, Spread};
+use super::super::cell_counts::{Count, CellCounts, RegionCounts, CellBox};
 use super::{Ground, Runs};
 use imdp::model::StateId;
 
@@ -11,12 +11,12 @@ pub(in super::super) struct Hits {
     counts: Vec<Count>,
     /// The sum of those before each position, and of all.
     before: Vec<Count>,
-    spread: Vec<(Spread, Count)>,
+    spread: Vec<(CellBox, Count)>,
 }
 
 impl Hits {
     /// Those of a landing.
-    pub(in super::super) fn new(landing: &Landing, ground: &Ground) -> Self {
+    pub(in super::super) fn new(landing: &CellCounts, ground: &Ground) -> Self {
         let table = landing.table();
         let mut by_position = vec![Count::default(); table.volume()];
         let mut spread = vec![];

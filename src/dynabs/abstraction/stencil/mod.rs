@@ -10,7 +10,7 @@ mod hits;
 mod rows;
 mod runs;
 
-use super::landing::Spread;
+use super::cell_counts::CellBox;
 pub(super) use box_count::BoxCount;
 pub(super) use ground::Ground;
 pub(super) use hits::Hits;
@@ -38,7 +38,7 @@ impl Stencil {
     /// The stencil of all cells of a box that have an interval, given by their row-major position in the box; `usual` is the
     /// interval that the first special state mostly has.
     pub(super) fn new(
-        hull: &Spread,
+        hull: &CellBox,
         ground: &Ground,
         usual: (f64, f64),
         interval: impl Fn(usize) -> Option<(f64, f64)>,

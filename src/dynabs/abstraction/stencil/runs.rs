@@ -1,13 +1,13 @@
 //! Cells in runs along the last dimension.
 
-use super::super::landing::Spread;
+use super::super::cell_counts::CellBox;
 use super::Ground;
 
 /// Cells around an origin, in runs along the last dimension, ascending.
 #[derive(Clone, Debug)]
 pub(in super::super) struct Runs {
     /// A box around all of them.
-    hull: Spread,
+    hull: CellBox,
     /// The coordinates of the first cell of every run, one run after the other.
     starts: Vec<i32>,
     /// The number of cells before each run; one more entry than runs.
@@ -18,7 +18,7 @@ pub(in super::super) struct Runs {
 
 impl Runs {
     /// The cells of a box that are `listed` at their row-major position in it.
-    pub(in super::super) fn new(hull: &Spread, ground: &Ground, listed: impl Fn(usize) -> bool) -> Self {
+    pub(in super::super) fn new(hull: &CellBox, ground: &Ground, listed: impl Fn(usize) -> bool) -> Self {
         let n = hull.lower.len();
         let mut runs = Self { hull: hull.clone(), starts: vec![], positions: vec![0], shifts: vec![] };
         let (mut position, mut cells) = (0, 0u32);
@@ -43,7 +43,7 @@ impl Runs {
     }
 
     /// A box around the cells.
-    pub(in super::super) fn hull(&self) -> &Spread {
+    pub(in super::super) fn hull(&self) -> &CellBox {
         &self.hull
     }
 

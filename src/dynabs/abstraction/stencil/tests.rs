@@ -1,6 +1,6 @@
 //! Stencils against what their definition says, cell by cell.
 
-use super::super::landing::Spread;
+use super::super::cell_counts::CellBox;
 use super::{BoxCount, Ground, Special, Stencil};
 use crate::partition::{CellId, Grid};
 use imdp::model::{RowEntries, StateId};
@@ -19,7 +19,7 @@ fn ground(kinds: &[u32]) -> Ground {
 }
 
 /// The cells of a box at `origin` with their row-major positions, and their numbers if they are in the grid.
-fn cells(hull: &Spread, origin: &[i32]) -> Vec<(usize, Option<usize>)> {
+fn cells(hull: &CellBox, origin: &[i32]) -> Vec<(usize, Option<usize>)> {
     let mut all = vec![];
     hull.for_each(|cell| {
         let inside = (0..3).all(|j| (0..CELLS[j] as i32).contains(&(cell[j] + origin[j])));
@@ -41,7 +41,7 @@ proptest! {
     ) {
         let ground = ground(&kinds);
         let upper = (0..3).map(|j| corner[j] + extent[j]).collect();
-        let hull = Spread { lower: corner.to_vec(), upper };
+        let hull = CellBox { lower: corner.to_vec(), upper };
         let interval = |position: usize| (position as f64, position as f64 + 0.5);
         let listed = |position: usize| !holes[position];
         let stencil = Stencil::new(&hull, &ground, (0.0, 0.25), |p| listed(p).then(|| interval(p)));

@@ -26,7 +26,7 @@
 mod lottery;
 mod shape;
 
-use super::landing::Spread;
+use super::cell_counts::CellBox;
 use super::placement::Placement;
 use crate::Warning;
 use crate::noise::NoiseSamples;
@@ -126,7 +126,7 @@ impl Windows {
     }
 
     /// The cells of every window.
-    pub(super) fn cells(&self, placement: &Placement) -> Vec<Spread> {
+    pub(super) fn cells(&self, placement: &Placement) -> Vec<CellBox> {
         let cells = |&reach: &f64| {
             if self.of_cells {
                 self.last.cells_within(reach, placement)

@@ -1,6 +1,6 @@
 //! The center and the proportions of nested boxes.
 
-use super::super::landing::Spread;
+use super::super::cell_counts::CellBox;
 use super::super::placement::Placement;
 use super::farther;
 use crate::noise::{NoiseSample, NoiseSamples};
@@ -43,7 +43,7 @@ impl Shape {
     }
 
     /// The distance of the farthest of these cells.
-    pub(super) fn distance_of_cells(&self, spread: &Spread, placement: &Placement) -> f64 {
+    pub(super) fn distance_of_cells(&self, spread: &CellBox, placement: &Placement) -> f64 {
         let along = |j: usize, o| placement.distance(j, o, self.center[j]) / self.half[j];
         (0..self.half.len()).fold(0.0, |distance, j| {
             farther(distance, farther(along(j, spread.lower[j]), along(j, spread.upper[j])))
@@ -57,7 +57,7 @@ impl Shape {
     }
 
     /// The cells that are at most this far.
-    pub(super) fn cells_within(&self, reach: f64, placement: &Placement) -> Spread {
+    pub(super) fn cells_within(&self, reach: f64, placement: &Placement) -> CellBox {
         let mut cells = placement.spread(NoiseSample::exact(&self.center));
         for j in 0..self.half.len() {
             let is_within = |o| placement.distance(j, o, self.center[j]) / self.half[j] <= reach;

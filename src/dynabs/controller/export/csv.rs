@@ -51,7 +51,7 @@ pub fn write_csv(controller: &Controller, grid: &Grid, mut out: impl Write) -> i
 }
 
 pub(super) fn geometry(grid: &Grid, cell: CellId) -> String {
-    let at = |place: &dyn Fn(&crate::partition::Axis, u32) -> imdp::numeric::Rational| {
+    let at = |place: &dyn Fn(&crate::partition::GridAxis, u32) -> imdp::numeric::Rational| {
         join(grid.axes().iter().enumerate().map(|(j, axis)| to_f64(&place(axis, grid.coordinate(cell, j)))))
     };
     [at(&|axis, i| axis.face(i)), at(&|axis, i| axis.face(i + 1)), at(&|axis, i| axis.center(i))].join(",")

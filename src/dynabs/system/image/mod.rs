@@ -30,7 +30,7 @@ use std::collections::HashMap;
 /// Rows that are affine functions of the state are exact, in integers; others are enclosed by the natural
 /// extension, the mean-value form and monotonicity, intersected, on parts of the cell where that helps.
 #[derive(Clone, Debug)]
-pub struct Images {
+pub struct ImageMap {
     graph: Graph,
     states: Vec<String>,
     rows: Vec<Row>,
@@ -67,7 +67,7 @@ struct AxisFaces {
     centers: Vec<Interval>,
 }
 
-impl Images {
+impl ImageMap {
     /// Prepares the images of the cells of `grid` under `mode`, for each of `inputs`.
     pub fn new(
         mode: &Mode,

@@ -1,6 +1,6 @@
 //! Images against sampled states, exact cases, and controls.
 
-use super::{ImageScratch, Images, Lattice, LatticeRange};
+use super::{ImageScratch, ImageMap, Lattice, LatticeRange};
 use crate::linear_algebra::ExactMatrix;
 use crate::partition::Grid;
 use crate::system::expression::{Graph, Scope, parse};
@@ -40,14 +40,14 @@ fn mode(texts: &[&str], inputs: usize, parameter: Interval) -> Mode {
     )
 }
 
-fn images(mode: &Mode, feedback: &Feedback, grid: &Grid, noisy: bool, inputs: &[Vec<f64>]) -> Images {
+fn images(mode: &Mode, feedback: &Feedback, grid: &Grid, noisy: bool, inputs: &[Vec<f64>]) -> ImageMap {
     let n = grid.dimension();
     let lattice = Lattice::new(grid, &vec![1; n], &vec![noisy; n]);
     let inputs: Vec<_> = inputs.iter().map(|input| exact(input)).collect();
-    Images::new(mode, feedback, grid, lattice, &inputs)
+    ImageMap::new(mode, feedback, grid, lattice, &inputs)
 }
 
-fn range(images: &Images, input: usize, coordinate: usize, cell: &[u32]) -> (i64, i64) {
+fn range(images: &ImageMap, input: usize, coordinate: usize, cell: &[u32]) -> (i64, i64) {
     let row = images.row(input, coordinate);
     let LatticeRange { first, last } = images.range(row, cell, &mut ImageScratch::default()).unwrap();
     (first, last)
@@ -109,7 +109,7 @@ fn feedback_contracts_the_image() {
     let plain = images(&mode, &Feedback::none(1, &grid), &grid, true, &inputs);
     let feedback = Feedback::new(matrix(1, &[0.0, 1.0]), &grid);
     let steered = images(&mode, &feedback, &grid, true, &inputs);
-    let width = |images: &Images, j| {
+    let width = |images: &ImageMap, j| {
         let (first, last) = range(images, 0, j, &[14, 14]);
         last - first + 1
     };

@@ -1,6 +1,6 @@
 //! The landings of all actions: one shared by translation, or one per target.
 
-use super::landing::{Count, Landing, Spread};
+use super::cell_counts::{Count, CellCounts, CellBox};
 use super::placement::Placement;
 use super::targets::{Alignment, Targets};
 use super::windows::Windows;
@@ -11,7 +11,7 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 /// How noise becomes cells, for every action.
-pub(super) enum Placements<'a> {
+pub(super) enum TargetPlacements<'a> {
     /// All targets sit alike in their cells: coordinates count from the cell of the target.
     Shared { placement: Placement, alignment: &'a [Alignment], last_cells: Vec<u32> },
     /// Targets anywhere: coordinates are those of the grid.
@@ -19,20 +19,20 @@ pub(super) enum Placements<'a> {
 }
 
 /// Where the samples of every action land.
-pub(super) struct Landings<'a> {
+pub(super) struct ActionCounts<'a> {
     samples: &'a NoiseSamples,
-    placements: Placements<'a>,
+    placements: TargetPlacements<'a>,
     /// The cells that rows are to list, if more than those with samples.
     windows: Option<Windows>,
     /// Whether samples count for certain only inside of windows.
     inside_only: bool,
     /// The landing of all actions where coordinates count from the target.
-    shared: Option<Landing>,
+    shared: Option<CellCounts>,
     /// The cells of the windows in these coordinates.
-    shared_windows: Vec<Spread>,
+    shared_windows: Vec<CellBox>,
 }
 
-impl<'a> Placements<'a> {
+impl<'a> TargetPlacements<'a> {
     /// With `tolerance`, samples near a face may be on either side of it.
     pub(super) fn new(grid: &Grid, targets: &'a Targets, tolerance: Option<Vec<f64>>) -> Self {
         let Some((alignment, axes)) = targets.alignment().zip(targets.axes()) else {
@@ -66,9 +66,9 @@ impl<'a> Placements<'a> {
     }
 }
 
-impl<'a> Landings<'a> {
+impl<'a> ActionCounts<'a> {
     /// The landings of `samples`, as they are.
-    pub(super) fn new(samples: &'a NoiseSamples, placements: Placements<'a>) -> Self {
+    pub(super) fn new(samples: &'a NoiseSamples, placements: TargetPlacements<'a>) -> Self {
         let landings = Self {
             samples,
             placements,
@@ -84,7 +84,7 @@ impl<'a> Landings<'a> {
     /// outside of a window counts for certain.
     pub(super) fn in_windows(
         samples: &'a NoiseSamples,
-        placements: Placements<'a>,
+        placements: TargetPlacements<'a>,
         windows: Windows,
         inside_only: bool,
     ) -> Self {
@@ -109,12 +109,12 @@ impl<'a> Landings<'a> {
         self
     }
 
-    fn landing(&self, placement: &Placement, cover: Option<&Spread>) -> Landing {
+    fn landing(&self, placement: &Placement, cover: Option<&CellBox>) -> CellCounts {
         let depths = self.windows.as_ref().filter(|_| self.inside_only).map(Windows::depths);
-        Landing::new(self.samples, placement, cover, depths)
+        CellCounts::new(self.samples, placement, cover, depths)
     }
 
-    fn cells_of_windows(&self, placement: &Placement) -> Vec<Spread> {
+    fn cells_of_windows(&self, placement: &Placement) -> Vec<CellBox> {
         self.windows.as_ref().map_or(vec![], |windows| windows.cells(placement))
     }
 
@@ -127,9 +127,9 @@ impl<'a> Landings<'a> {
         target: usize,
         grid: &Grid,
         origin: &mut [i32],
-    ) -> (Cow<'_, Landing>, Cow<'_, [Spread]>) {
+    ) -> (Cow<'_, CellCounts>, Cow<'_, [CellBox]>) {
         match (&self.placements, &self.shared) {
-            (Placements::Shared { .. }, Some(landing)) => {
+            (TargetPlacements::Shared { .. }, Some(landing)) => {
                 targets.cell(target, origin);
                 (Cow::Borrowed(landing), Cow::Borrowed(&self.shared_windows))
             }
@@ -144,19 +144,19 @@ impl<'a> Landings<'a> {
     }
 
     /// The landing of all actions, if coordinates count from their targets.
-    pub(super) fn shared(&self) -> Option<&Landing> {
+    pub(super) fn shared(&self) -> Option<&CellCounts> {
         self.shared.as_ref()
     }
 
     /// The cells of the windows of all actions, if coordinates count from their targets; the largest first.
-    pub(super) fn shared_windows(&self) -> &[Spread] {
+    pub(super) fn shared_windows(&self) -> &[CellBox] {
         &self.shared_windows
     }
 
     /// The coordinates of an action's target in its landing: whatever the samples.
     pub(super) fn target_cell(&self, targets: &Targets, target: usize) -> Vec<i32> {
         let mut cell = vec![0; targets.dimension()];
-        if let Placements::PerTarget { .. } = self.placements {
+        if let TargetPlacements::PerTarget { .. } = self.placements {
             targets.cell(target, &mut cell);
         }
         cell
@@ -164,8 +164,8 @@ impl<'a> Landings<'a> {
 
     fn placement(&self, targets: &Targets, target: usize, grid: &Grid) -> Cow<'_, Placement> {
         match &self.placements {
-            Placements::Shared { placement, .. } => Cow::Borrowed(placement),
-            Placements::PerTarget { tolerance } => {
+            TargetPlacements::Shared { placement, .. } => Cow::Borrowed(placement),
+            TargetPlacements::PerTarget { tolerance } => {
                 let mut point = vec![0.0; grid.dimension()];
                 targets.point(target, &mut point);
                 Cow::Owned(Placement::of_point(grid, &point, tolerance.as_deref()))

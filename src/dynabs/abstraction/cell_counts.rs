@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 ///
 /// Coordinates count from an origin cell: the target's, or the first cell of the grid.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Spread {
+pub struct CellBox {
     /// The least coordinates.
     pub lower: Vec<i32>,
     /// The greatest coordinates.
@@ -27,11 +27,11 @@ pub struct Count {
 
 /// The samples of `d + η` by the cells in which they land, relative to an origin cell.
 #[derive(Clone, Debug)]
-pub struct Landing {
+pub struct CellCounts {
     /// Distinct spreads with their samples, ascending: those inside of each window, and all.
-    groups: Vec<(Spread, Count)>,
+    groups: Vec<(CellBox, Count)>,
     /// The cells that `counts` is about: all that some sample may lie in, and more if asked for.
-    table: Spread,
+    table: CellBox,
     /// The counts of every cell of the table, row-major.
     counts: Vec<Count>,
 }
@@ -45,17 +45,17 @@ pub struct RegionCounts {
     pub lost: Count,
 }
 
-impl Landing {
+impl CellCounts {
     /// Where the samples land; the table of counts includes the cells of `cover`.
     ///
     /// `depths` says of every sample how many of the windows it is inside of, the first ones; without, it is in all.
     pub fn new(
         samples: &NoiseSamples,
         placement: &Placement,
-        cover: Option<&Spread>,
+        cover: Option<&CellBox>,
         depths: Option<&[u8]>,
     ) -> Self {
-        let mut groups: BTreeMap<Spread, Count> = BTreeMap::new();
+        let mut groups: BTreeMap<CellBox, Count> = BTreeMap::new();
         for (i, sample) in samples.measured().enumerate() {
             let count = groups.entry(placement.spread(sample)).or_default();
             let depth = depths.map_or(WINDOWS, |depths| usize::from(depths[i]));
@@ -64,7 +64,7 @@ impl Landing {
         }
         let groups: Vec<_> = groups.into_iter().collect();
         let first = cover.or(groups.first().map(|(spread, _)| spread));
-        let mut table = first.cloned().unwrap_or(Spread { lower: vec![], upper: vec![] });
+        let mut table = first.cloned().unwrap_or(CellBox { lower: vec![], upper: vec![] });
         groups.iter().for_each(|(spread, _)| table.include(spread));
         let mut counts = vec![Count::default(); table.volume()];
         for (spread, number) in &groups {
@@ -75,12 +75,12 @@ impl Landing {
     }
 
     /// Distinct cells, or boxes of cells, with the samples that land there.
-    pub(super) fn groups(&self) -> &[(Spread, Count)] {
+    pub(super) fn groups(&self) -> &[(CellBox, Count)] {
         &self.groups
     }
 
     /// The cells that have counts: a box with all samples.
-    pub fn table(&self) -> &Spread {
+    pub fn table(&self) -> &CellBox {
         &self.table
     }
 
@@ -108,7 +108,7 @@ impl Count {
     }
 }
 
-impl Spread {
+impl CellBox {
     /// The number of cells.
     pub fn volume(&self) -> usize {
         self.lower.iter().zip(&self.upper).map(|(l, u)| (u - l) as usize + 1).product()
@@ -166,10 +166,10 @@ mod tests {
         grid: &Grid,
         alignment: &[Alignment],
         tolerance: Option<f64>,
-    ) -> Landing {
+    ) -> CellCounts {
         let tolerance = tolerance.map(|t| [t]);
         let tolerance = tolerance.as_ref().map(|t| t.as_slice());
-        Landing::new(samples, &Placement::of_offsets(grid, alignment, &[9], tolerance), None, None)
+        CellCounts::new(samples, &Placement::of_offsets(grid, alignment, &[9], tolerance), None, None)
     }
 
     #[test]
@@ -177,7 +177,7 @@ mod tests {
         let (grid, alignment) = line(10);
         let samples = NoiseSamples::new(1, vec![0.0, 0.4, -0.4, 0.6, -1.4, 99.0]);
         let landing = offsets(&samples, &grid, &alignment, Some(1e-12));
-        assert_eq!(landing.table(), &Spread { lower: vec![-1], upper: vec![10] });
+        assert_eq!(landing.table(), &CellBox { lower: vec![-1], upper: vec![10] });
         let certain = |i: usize| landing.counts()[i].certain;
         assert_eq!([certain(0), certain(1), certain(2)], [[1; WINDOWS], [3; WINDOWS], [1; WINDOWS]]);
     }
@@ -200,7 +200,7 @@ mod tests {
         let samples = NoiseSamples::new(1, vec![0.0, 0.4, -0.4, 0.6, -1.4, 3.3]);
         let by_offset = offsets(&samples, &grid, &alignment, Some(0.0));
         let placement = Placement::of_point(&grid, &[4.5], Some(&[0.0]));
-        let by_point = Landing::new(&samples, &placement, None, None);
+        let by_point = CellCounts::new(&samples, &placement, None, None);
         assert_eq!(by_offset.counts(), by_point.counts());
         assert_eq!(by_point.table().lower[0], by_offset.table().lower[0] + 4);
     }
@@ -210,7 +210,7 @@ mod tests {
         let (grid, alignment) = line(10);
         let samples = NoiseSamples::new(1, vec![0.0, 0.1, 0.2, 1.0]);
         let placement = Placement::of_offsets(&grid, &alignment, &[9], Some(&[0.0]));
-        let landing = Landing::new(&samples, &placement, None, Some(&[4, 1, 0, 2]));
+        let landing = CellCounts::new(&samples, &placement, None, Some(&[4, 1, 0, 2]));
         assert_eq!(landing.counts()[0], Count { certain: [2, 1, 1, 1], possible: 3 });
         assert_eq!(landing.counts()[1], Count { certain: [1, 1, 0, 0], possible: 1 });
     }
