@@ -40,5 +40,6 @@ mod solver;
 mod soundness;
 mod steering;
 mod systems;
+mod type_names;
 mod values;
 mod verify;

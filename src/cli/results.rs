@@ -4,7 +4,7 @@ use dynabs::guarantee::Claim;
 use imdp::evaluation::Evaluation;
 use imdp::model::{IntervalMdp, StateId};
 use imdp::property::{Compound, Property, Verdict};
-use imdp::solver::{Answer, Status};
+use imdp::solver::{Answer, Inexact, Status};
 use serde::{Serialize, Serializer};
 use std::fmt::Write as _;
 use std::process::ExitCode;
@@ -32,6 +32,9 @@ pub struct PropertyResult {
     /// If there are several initial states: what holds in each.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub initial: Vec<InitialResult>,
+    /// Why a threshold that lies between the bounds is not decided, if so.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub undecided: Option<String>,
     /// Why there is no answer, if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
@@ -79,7 +82,8 @@ impl PropertyResult {
         };
         let verdict = answer.verdict;
         let (status, steps) = (answer.solution.status, answer.solution.iterations);
-        Self::of_states(property.to_string(), model, in_state, verdict, (status, steps, time))
+        let result = Self::of_states(property.to_string(), model, in_state, verdict, (status, steps, time));
+        result.undecided_because(answer.inexact)
     }
 
     /// Summarises an expression.
@@ -101,7 +105,19 @@ impl PropertyResult {
         let verdicts: Option<Vec<Verdict>> =
             model.initial().ones().map(|state| evaluation.verdict(StateId::from_index(state))).collect();
         let ending = (evaluation.status, evaluation.iterations, time);
-        Self::of_states(compound.to_string(), model, in_state, verdicts.map(Verdict::in_all), ending)
+        let verdict = verdicts.map(Verdict::in_all);
+        Self::of_states(compound.to_string(), model, in_state, verdict, ending)
+            .undecided_because(evaluation.inexact)
+    }
+
+    /// The same, with the reason why exact arithmetic did not decide it.
+    fn undecided_because(mut self, reason: Option<Inexact>) -> Self {
+        // What was stopped says so.
+        let reason = reason.filter(|reason| !self.decided && *reason != Inexact::Stopped);
+        self.undecided = reason.map(|reason| {
+            format!("the threshold lies between the bounds, and {reason}; a smaller --epsilon may decide it")
+        });
+        self
     }
 
     fn of_states(
@@ -123,6 +139,7 @@ impl PropertyResult {
             steps,
             seconds: time.as_secs_f64(),
             initial: if initial.len() > 1 { initial } else { vec![] },
+            undecided: None,
             error: None,
             guarantee: None,
             decided: match verdict {
@@ -143,6 +160,7 @@ impl PropertyResult {
             steps: 0,
             seconds: 0.0,
             initial: vec![],
+            undecided: None,
             error: Some(error),
             guarantee: None,
             decided: false,
@@ -204,6 +222,9 @@ pub(super) fn table(results: &[PropertyResult]) -> String {
             result.steps,
             Duration::from_secs_f64(result.seconds),
         );
+        if let Some(reason) = &result.undecided {
+            let _ = writeln!(text, "  {reason}");
+        }
         for InitialResult { state, lower, upper, satisfied } in result.initial.iter().take(LISTED) {
             let verdict = satisfied.map_or(String::new(), |satisfied| format!("{satisfied}   "));
             let _ = writeln!(
@@ -237,4 +258,35 @@ fn value(lower: Option<f64>, upper: Option<f64>) -> String {
     let width = upper - lower;
     let digits = if width > 0.0 { (2.0 - width.log10()).clamp(6.0, 15.0) as usize } else { 12 };
     format!("value in [{lower:.digits$}, {upper:.digits$}] ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use imdp::formats::Format;
+    use imdp::solver::SolverOptions;
+
+    #[test]
+    fn what_is_undecided_says_why() {
+        let scratch = tempfile::tempdir().unwrap();
+        let path = scratch.path().join("m.tra");
+        std::fs::write(&path, "2 2 3\n0 0 0 [0.4,0.6]\n0 0 1 [0.4,0.6]\n1 0 1 1\n").unwrap();
+        std::fs::write(path.with_extension("lab"), "0=\"init\" 1=\"goal\"\n0: 0\n1: 1\n").unwrap();
+        let model = Format::Prism.import(&path, &mut |_| {}).unwrap().model;
+        let property: Property = "(Pmaxmin=? [ F<=1 \"goal\" ])>=0.4".parse().unwrap();
+        let result = |exact_work| {
+            let options = SolverOptions { exact_work, ..SolverOptions::default() };
+            let answer = Answer::new(&model, &property, &options).unwrap();
+            PropertyResult::new(&property, &answer, &model, Duration::ZERO)
+        };
+        let undecided = result(0);
+        let text = table(std::slice::from_ref(&undecided));
+        assert!(
+            text.contains("undecided") && text.contains("exact arithmetic would take too long"),
+            "{text}"
+        );
+        assert!(undecided.satisfied.is_none() && undecided.undecided.is_some());
+        let decided = result(1 << 20);
+        assert_eq!((decided.satisfied, decided.undecided), (Some(true), None));
+    }
 }

@@ -2,6 +2,7 @@
 mod commands;
 mod drn;
 mod recorded;
+mod rewards;
 mod round_trips;
 mod row_states;
 mod tiny;

@@ -113,6 +113,29 @@ fn a_model_with_everything_comes_back() {
     travel(&model, &EVERYWHERE, scratch.path());
 }
 
+/// Bounds below what lower bounds of 0 are raised to, and a zero with a sign.
+#[test]
+fn bounds_at_the_edge_of_doubles_come_back() {
+    let model = crate::solver::models::model(
+        &[vec![(0, -0.0, 1e-309), (1, 0.0, 1e-305), (2, 0.5, 1.0)], vec![(0, 0.0, 0.5), (2, 0.0, 1.0)]],
+        &[Some(vec![(0, 1)]), None, None],
+    );
+    let scratch = tempfile::tempdir().unwrap();
+    for format in ALL {
+        let read = read(&write(&model, format, scratch.path()));
+        for (written, row) in model.rows().to_stored().iter().zip(read.rows().to_stored().iter()) {
+            assert_eq!(row.upper, written.upper, "{format}");
+            let bounds = row.lower.iter().zip(row.upper).zip(written.lower);
+            assert!(
+                bounds
+                    .into_iter()
+                    .all(|((l, u), w)| l == w || (*w == 0.0 && *l <= RAISED_LOWER_BOUND.min(*u))),
+                "{format}: {row:?}"
+            );
+        }
+    }
+}
+
 #[test]
 fn shipped_models_come_back() {
     let scratch = tempfile::tempdir().unwrap();

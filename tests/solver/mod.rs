@@ -2,6 +2,7 @@
 mod cases;
 pub mod models;
 pub mod reference;
+mod thresholds;
 
 use crate::common::certified::certified;
 use imdp::model::{IntervalMdp, StateId, StateSet};

@@ -16,7 +16,7 @@ use std::process::ExitCode;
 /// Solve interval MDPs by robust value iteration with bounds from below and above; write and simulate controllers.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "dynabs-check", version, after_help = AFTER_HELP)]
-pub struct Arguments {
+pub struct CheckArguments {
     #[command(subcommand)]
     command: Command,
 
@@ -58,7 +58,7 @@ the bounds straddle the threshold, or an engine gave no answer), 4 I/O, memory o
 ///
 /// # Errors
 /// [`CliError`], which knows its exit code.
-pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
+pub fn run(arguments: &CheckArguments) -> Result<ExitCode, CliError> {
     use_threads(arguments.threads)?;
     use_memory(arguments.memory);
     match &arguments.command {

@@ -24,7 +24,7 @@ use std::time::{Duration, Instant};
 /// Compile a noisy linear control system into an interval MDP with guaranteed probabilities, for PRISM.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "dynabs-compile", version, after_help = AFTER_HELP)]
-pub struct Arguments {
+pub struct CompileArguments {
     /// The model file (JSON).
     #[arg(required_unless_present_any = ["init", "schema"])]
     model: Option<PathBuf>,
@@ -114,7 +114,7 @@ Examples:
 ///
 /// # Errors
 /// [`CliError`], which knows its exit code.
-pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
+pub fn run(arguments: &CompileArguments) -> Result<ExitCode, CliError> {
     if arguments.schema {
         print(&json_schema())?;
     } else if let Some(file) = &arguments.init {
@@ -146,7 +146,7 @@ fn write_starter(file: &Path, quiet: bool) -> Result<(), CliError> {
     Ok(())
 }
 
-fn compile_model(arguments: &Arguments, path: &Path) -> Result<ExitCode, CliError> {
+fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, CliError> {
     let start = Instant::now();
     let bars = Arc::new(Bars::new(arguments.quiet));
     if let Some(output) = arguments.output.as_deref().filter(|_| !arguments.dry_run) {
@@ -231,7 +231,7 @@ fn solve(
     Ok((answer, result))
 }
 
-fn write_options<'a>(arguments: &Arguments) -> WriteOptions<'a> {
+fn write_options<'a>(arguments: &CompileArguments) -> WriteOptions<'a> {
     let formats = arguments.format.iter().map(|&name| name.into());
     WriteOptions {
         formats: if arguments.no_tra { vec![] } else { formats.collect() },
@@ -270,7 +270,11 @@ fn read_model(path: &Path) -> Result<String, CliError> {
 }
 
 /// Parses the file and applies `--set` and `--seed`; returns the document and what to note about it.
-fn configure(path: &Path, source: &str, arguments: &Arguments) -> Result<(Document, Vec<String>), CliError> {
+fn configure(
+    path: &Path,
+    source: &str,
+    arguments: &CompileArguments,
+) -> Result<(Document, Vec<String>), CliError> {
     let mut document = Document::parse(path, source)?;
     for text in &arguments.set {
         let argument: SetArgument =
@@ -290,7 +294,7 @@ fn configure(path: &Path, source: &str, arguments: &Arguments) -> Result<(Docume
 }
 
 fn report(
-    arguments: &Arguments,
+    arguments: &CompileArguments,
     manifest: &Manifest,
     footprint: &Footprint,
     phases: &[(&str, Duration)],

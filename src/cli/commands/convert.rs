@@ -4,7 +4,7 @@ use crate::model_source::load;
 use crate::{AnyFormatName, Bars, CliError, EncodingName, NamesChoice, print, thousands, warn};
 use clap::Args;
 use imdp::files::{self, Outputs};
-use imdp::formats::prism::RAISED_LOWER_BOUND;
+use imdp::formats::prism::{ExplicitFiles, RAISED_LOWER_BOUND};
 use imdp::formats::row_states::{EncodingError, RowStates};
 use imdp::formats::umb::Compression;
 use imdp::formats::{Format, ModelWriter, WriteError, identifiers, netcdf};
@@ -94,13 +94,15 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
     loaded.require_unchanged()?;
     let mut warnings = loaded.warnings;
     let mut model = loaded.model;
-    let rewards: Vec<_> = model.rewards().iter().map(|structure| structure.name.clone()).collect();
-    if !rewards.is_empty() {
-        warnings.push(format!("the rewards {} are not written", rewards.join(", ")));
-    }
     let specification = properties.specification(&model).filter(|_| format == Format::Netcdf);
     let mut text = properties.text.clone();
     if arguments.encoding == EncodingName::Rows {
+        if !model.rewards().is_empty() {
+            warnings.push(format!(
+                "{}: with one state per row",
+                not_written(model.rewards().iter().map(|structure| structure.name.as_str()))
+            ));
+        }
         let encoded = RowStates::new(&model)?;
         text = properties.translate(&encoded, &mut warnings)?;
         model = encoded.model;
@@ -137,6 +139,21 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
         written.map_err(|error| CliError::writing(&path, &error))?;
         bars.finish();
     }
+    for file in writer.reward_files() {
+        let mut name = output.with_extension("").into_os_string();
+        name.push(&file.suffix);
+        let path = PathBuf::from(name);
+        let written = files.write(&path, |out| file.write(out));
+        written.map_err(|error| CliError::writing(&path, &error))?;
+    }
+    let left_out = writer.rewards_left_out();
+    if !left_out.is_empty() {
+        let reason = match format {
+            Format::Drn => "DRN has no rewards of branches, and no blanks in their names".to_owned(),
+            _ => format!("{format} has no place for rewards"),
+        };
+        warnings.push(format!("{}: {reason}", not_written(left_out.into_iter())));
+    }
     let mut write_text = |extension: &str, text: &str| {
         let path = output.with_extension(extension);
         let written = files.write(&path, |out| out.write_all(text.as_bytes()));
@@ -168,6 +185,11 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
     Ok(ExitCode::SUCCESS)
 }
 
+fn not_written<'n>(names: impl Iterator<Item = &'n str>) -> String {
+    let names: Vec<_> = names.map(|name| format!("\"{name}\"")).collect();
+    format!("the rewards {} are not written", names.join(", "))
+}
+
 fn refuse_existing(arguments: &ConvertArguments, format: Format) -> Result<(), CliError> {
     let output = &arguments.output;
     let mut written = vec![output.clone()];
@@ -176,6 +198,9 @@ fn refuse_existing(arguments: &ConvertArguments, format: Format) -> Result<(), C
     }
     if format == Format::Prism {
         written.extend(["sta", "lab"].map(|extension| output.with_extension(extension)));
+        // What lies beside a .tra file is read with it.
+        let ExplicitFiles { srew, trew, .. } = ExplicitFiles::beside(output);
+        written.extend(srew.into_iter().chain(trew));
     }
     if !keeps_properties(arguments) {
         written.push(output.with_extension("props"));

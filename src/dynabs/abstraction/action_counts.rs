@@ -1,6 +1,6 @@
 //! The landings of all actions: one shared by translation, or one per target.
 
-use super::cell_counts::{Count, CellCounts, CellBox};
+use super::cell_counts::{CellBox, CellCounts, Count};
 use super::placement::Placement;
 use super::targets::{Alignment, Targets};
 use super::windows::Windows;

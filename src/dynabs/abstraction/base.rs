@@ -1,9 +1,9 @@
 //! What a model is built on: where noise lands, in which windows, and which actions are enabled.
 
 use super::AbstractionError;
+use super::action_counts::TargetPlacements;
 use super::enabling::Enabling;
 use super::hazards::Hazards;
-use super::action_counts::TargetPlacements;
 use super::pac::Prepared;
 use super::steering::Steering;
 use super::windows::Windows;

@@ -5,8 +5,10 @@
 //! the rows are translations of each other, and all of them follow from how often each *offset* from a
 //! target was hit by `d_a + δ_i`.
 
+mod action_counts;
 mod base;
 mod between;
+mod cell_counts;
 mod compile;
 mod count_table;
 mod enabled;
@@ -15,8 +17,6 @@ mod error;
 mod footprint;
 mod hazards;
 pub mod inputs;
-mod cell_counts;
-mod action_counts;
 mod outcomes;
 mod pac;
 mod placement;
@@ -28,11 +28,11 @@ mod stencil;
 mod targets;
 mod windows;
 
+pub use cell_counts::{CellBox, CellCounts, Count, RegionCounts};
 pub use compile::{Abstraction, compile};
 pub use enabled::enabled_actions;
 pub use error::AbstractionError;
 pub use footprint::Footprint;
-pub use cell_counts::{Count, CellCounts, RegionCounts, CellBox};
 pub use outcomes::{Outcome, Outcomes};
 pub use placement::Placement;
 pub use targets::{Alignment, Targets};

@@ -5,10 +5,10 @@
 //! is no union over the intervals, cells without samples get upper bound 0, upper bounds are rounded
 //! down, and zero lower bounds are raised to 10⁻⁴.
 
+use super::action_counts::{ActionCounts, TargetPlacements};
+use super::cell_counts::CellCounts;
 use super::count_table::CountTable;
 use super::footprint::need_of_rows;
-use super::cell_counts::CellCounts;
-use super::action_counts::{ActionCounts, TargetPlacements};
 use super::row_tasks::build_rows;
 use super::states::StateSpace;
 use super::stencil::{Chosen, Ground, Runs, Special, Stencil, StencilRows};

@@ -1,6 +1,6 @@
 //! The points that actions steer to.
 
-use crate::partition::{GridAxis, Grid};
+use crate::partition::{Grid, GridAxis};
 use crate::problem::TargetPoints;
 use imdp::numeric::{Rational, to_f64};
 use num_traits::ToPrimitive;

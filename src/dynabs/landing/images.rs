@@ -1,55 +1,45 @@
-//! Where the images of all cells and inputs lie on the lattice: a position and a size each.
+//! Where the images of all cells and inputs lie on the lattice.
 
-use super::axis::Axis;
+use super::layout::Layout;
+use super::side::Side;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
 
-/// The box of sub-cells of one image: its first and last sub-cell in every coordinate.
-pub type SubCells = [(i64, i64)];
-
-/// Where a cell goes under an input.
+/// Where a cell goes under an input: a product of ranges of sub-cells, one for each coordinate.
 pub trait ImageSource: Sync {
     /// The number of inputs.
     fn inputs(&self) -> usize;
 
-    /// Writes the sub-cells that contain the image of a cell under an input, unwrapped; `false` if the input is not
+    /// The ranges that occur in a coordinate, from their first to their last sub-cell, unwrapped.
+    fn ranges(&self, coordinate: usize) -> &[(i64, i64)];
+
+    /// Writes by coordinate which of its ranges has the image of a cell under an input; `false` if the input is not
     /// enabled there.
-    fn image(&self, cell: u32, input: u32, out: &mut SubCells) -> bool;
+    fn image(&self, cell: u32, input: u32, out: &mut [u32]) -> bool;
 }
 
-/// All images of one size.
-#[derive(Clone, Debug)]
-pub struct SizeClass {
-    /// The number of sub-cells in every coordinate.
-    pub size: Vec<u32>,
-    /// `cell · inputs + input`, ascending.
-    pub of: Vec<u32>,
-    /// The position of the first sub-cell in the array of landing values.
-    pub at: Vec<u32>,
-}
-
-/// The images of a set of cells, by size.
+/// The images of a set of cells.
+///
+/// An image is a position in an array of extrema, and the shape of the box that is still to be looked at from there:
+/// see [`Layout`].
 #[derive(Clone, Debug)]
 pub struct Images {
-    inputs: u32,
-    classes: Vec<SizeClass>,
+    inputs: usize,
+    /// The cells, ascending.
+    cells: Vec<u32>,
+    /// By cell, by input: the position, or [`NOWHERE`].
+    at: Vec<u32>,
+    /// By cell, by input: the shape; nothing if there is only one.
+    shapes: Vec<u16>,
+    layout: Layout,
 }
 
 /// Why images cannot be stored.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LandingError {
-    /// Cells and inputs are too many to be numbered together.
-    #[error("{cells} cells and {inputs} inputs are too many together; at most {} pairs", u32::MAX)]
-    TooManyPairs {
-        /// The number of cells.
-        cells: u64,
-        /// The number of inputs.
-        inputs: u64,
-    },
     /// The lattice has too many points.
     #[error(
         "a lattice of {points} sub-cells in which images and noise land is too fine; at most {}",
-        u32::MAX
+        u32::MAX - 1
     )]
     TooFine {
         /// The number of sub-cells that are looked at.
@@ -57,121 +47,134 @@ pub enum LandingError {
     },
 }
 
+/// What an input that is not enabled has for a position.
+const NOWHERE: u32 = u32::MAX;
+
+/// What is stored of an image.
+const BYTES_OF_IMAGE: u64 = 6;
+
 /// How many cells one task looks at.
 const BLOCK: usize = 1 << 12;
 
+/// Which ranges occur in the images of some cells, by coordinate.
+pub fn occurring(source: &impl ImageSource, cells: &[u32], dimension: usize) -> Vec<Vec<bool>> {
+    let none = || -> Vec<Vec<bool>> { (0..dimension).map(|j| vec![false; source.ranges(j).len()]).collect() };
+    let of_block = |mut occurs: Vec<Vec<bool>>, block: &[u32]| {
+        let mut image = vec![0; dimension];
+        for &cell in block {
+            for input in 0..source.inputs() as u32 {
+                if source.image(cell, input, &mut image) {
+                    occurs.iter_mut().zip(&image).for_each(|(occurs, &range)| occurs[range as usize] = true);
+                }
+            }
+        }
+        occurs
+    };
+    let join = |mut a: Vec<Vec<bool>>, b: Vec<Vec<bool>>| {
+        a.iter_mut().zip(b).for_each(|(a, b)| a.iter_mut().zip(b).for_each(|(a, b)| *a |= b));
+        a
+    };
+    cells.par_chunks(BLOCK).fold(none, of_block).reduce(none, join)
+}
+
 impl Images {
-    /// The least and greatest sub-cells that images of `cells` touch.
-    pub fn extent(source: &impl ImageSource, cells: &[u32], dimension: usize) -> Vec<(i64, i64)> {
-        let none = || vec![(i64::MAX, i64::MIN); dimension];
-        let join = |mut a: Vec<(i64, i64)>, b: Vec<(i64, i64)>| {
-            a.iter_mut().zip(b).for_each(|(a, b)| *a = (a.0.min(b.0), a.1.max(b.1)));
-            a
-        };
-        let of_block = |block: &[u32]| {
-            let (mut all, mut image) = (none(), vec![(0, 0); dimension]);
-            for &cell in block {
-                for input in 0..source.inputs() as u32 {
-                    if source.image(cell, input, &mut image) {
-                        all.iter_mut().zip(&image).for_each(|(a, b)| *a = (a.0.min(b.0), a.1.max(b.1)));
+    /// Bytes that the images of so many cells under all inputs need, and the arrays of a step.
+    pub fn bytes(layout: &Layout, cells: usize, inputs: usize) -> u64 {
+        BYTES_OF_IMAGE * cells as u64 * inputs as u64 + layout.bytes()
+    }
+
+    /// The images of `cells`, ascending.
+    pub fn new(source: &impl ImageSource, cells: &[u32], layout: Layout) -> Self {
+        let inputs = source.inputs();
+        let many = layout.has_shapes();
+        let mut at = vec![NOWHERE; cells.len() * inputs];
+        let mut shapes = vec![0; if many { at.len() } else { 0 }];
+        let fill = |cells: &[u32], at: &mut [u32], mut shapes: Option<&mut [u16]>| {
+            let mut image = vec![0; layout.dimension()];
+            let pairs = cells.iter().flat_map(|&cell| (0..inputs as u32).map(move |input| (cell, input)));
+            for (i, (cell, input)) in pairs.enumerate() {
+                if source.image(cell, input, &mut image) {
+                    let (position, shape) = layout.place(&image);
+                    at[i] = position;
+                    if let Some(shapes) = &mut shapes {
+                        shapes[i] = shape;
                     }
                 }
             }
-            all
         };
-        cells.par_chunks(BLOCK).map(of_block).reduce(none, join)
-    }
-
-    /// The images of `cells`, ascending, on a lattice with these axes.
-    ///
-    /// # Errors
-    /// [`LandingError`] if positions or pairs do not fit 32 bits.
-    pub fn new(source: &impl ImageSource, cells: &[u32], axes: &[Axis]) -> Result<Self, LandingError> {
-        let inputs = source.inputs() as u32;
-        let last = cells.last().map_or(0, |&cell| u64::from(cell));
-        if (last + 1) * u64::from(inputs) > u64::from(u32::MAX) {
-            return Err(LandingError::TooManyPairs { cells: last + 1, inputs: inputs.into() });
+        let blocks = cells.par_chunks(BLOCK).zip(at.par_chunks_mut(BLOCK * inputs));
+        if many {
+            let blocks = blocks.zip(shapes.par_chunks_mut(BLOCK * inputs));
+            blocks.for_each(|((cells, at), shapes)| fill(cells, at, Some(shapes)));
+        } else {
+            blocks.for_each(|(cells, at)| fill(cells, at, None));
         }
-        let points = axes.iter().map(|axis| axis.len as u128).product();
-        if points > u128::from(u32::MAX) {
-            return Err(LandingError::TooFine { points });
-        }
-        let mut classes: BTreeMap<Vec<u32>, (Vec<u32>, Vec<u32>)> = BTreeMap::new();
-        // A few blocks at a time: what is found is soon where it belongs.
-        for blocks in cells.chunks(64 * BLOCK) {
-            let found: Vec<_> = blocks.par_chunks(BLOCK).map(|block| in_block(source, block, axes)).collect();
-            for (size, of, at) in found.into_iter().flatten() {
-                let class = classes.entry(size).or_default();
-                class.0.extend_from_slice(&of);
-                class.1.extend_from_slice(&at);
-            }
-        }
-        let classes = classes.into_iter().map(|(size, (of, at))| SizeClass { size, of, at }).collect();
-        Ok(Self { inputs, classes })
+        Self { inputs, cells: cells.to_vec(), at, shapes, layout }
     }
 
     /// The number of inputs.
-    pub fn inputs(&self) -> u32 {
+    pub fn inputs(&self) -> usize {
         self.inputs
-    }
-
-    /// The images by size, sizes in lexicographic order.
-    pub fn classes(&self) -> &[SizeClass] {
-        &self.classes
     }
 
     /// The cells in which some input is enabled, ascending.
     pub fn acting(&self) -> Vec<u32> {
-        let mut cells: Vec<u32> = vec![];
-        for class in &self.classes {
-            let mut own: Vec<u32> = class.of.iter().map(|pair| pair / self.inputs).collect();
-            own.dedup();
-            cells.append(&mut own);
-        }
-        cells.sort_unstable();
-        cells.dedup();
-        cells
+        let cells = self.cells.iter().zip(self.at.chunks(self.inputs));
+        cells.filter(|(_, at)| at.iter().any(|&at| at != NOWHERE)).map(|(&cell, _)| cell).collect()
     }
 
     /// The number of enabled pairs of cell and input.
     pub fn len(&self) -> usize {
-        self.classes.iter().map(|class| class.of.len()).sum()
+        self.at.iter().filter(|&&at| at != NOWHERE).count()
     }
 
     /// Whether nothing is enabled anywhere.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
-}
 
-type Found = Vec<(Vec<u32>, Vec<u32>, Vec<u32>)>;
-
-fn in_block(source: &impl ImageSource, block: &[u32], axes: &[Axis]) -> Found {
-    let mut classes: BTreeMap<Vec<u32>, usize> = BTreeMap::new();
-    let mut found: Found = vec![];
-    let (mut image, mut size) = (vec![(0, 0); axes.len()], vec![0; axes.len()]);
-    for &cell in block {
-        for input in 0..source.inputs() as u32 {
-            if !source.image(cell, input, &mut image) {
-                continue;
-            }
-            let mut at = 0;
-            for (j, axis) in axes.iter().enumerate() {
-                let (first, length) = axis.place(image[j].0, image[j].1);
-                at = at * axis.len + first;
-                size[j] = length as u32;
-            }
-            let class = match classes.get(&size) {
-                Some(&class) => class,
-                None => {
-                    classes.insert(size.clone(), found.len());
-                    found.push((size.clone(), vec![], vec![]));
-                    found.len() - 1
-                }
-            };
-            found[class].1.push(cell * source.inputs() as u32 + input);
-            found[class].2.push(at as u32);
-        }
+    /// The images of all enabled pairs, by cell and input: the cell, the input, and what [`Images::sub_cells`] takes.
+    pub(super) fn all(&self) -> impl Iterator<Item = (u32, u32, (u32, u16))> + '_ {
+        let pair = |i: usize| (self.cells[i / self.inputs], (i % self.inputs) as u32, self.image(i));
+        (0..self.at.len()).filter(|&i| self.at[i] != NOWHERE).map(pair)
     }
-    found
+
+    /// The box of an image, by coordinate: the position of its first sub-cell and how many it has.
+    pub(super) fn sub_cells(&self, (at, shape): (u32, u16)) -> Vec<(u32, u32)> {
+        self.layout.sub_cells(at, shape)
+    }
+
+    fn image(&self, i: usize) -> (u32, u16) {
+        (self.at[i], self.shapes.get(i).copied().unwrap_or_default())
+    }
+
+    /// The extrema over all images, given the values of all sub-cells: by cell, the greatest over its inputs and the
+    /// first input that has it.
+    pub(super) fn best<S: Side>(&self, landed: Vec<f64>, mut note: impl FnMut(u32, f64, u32)) {
+        let worth = self.layout.gather::<S>(landed);
+        let of_cell = |c: usize| {
+            let mut best: Option<(f64, u32)> = None;
+            for input in 0..self.inputs {
+                let (at, shape) = self.image(c * self.inputs + input);
+                if at != NOWHERE {
+                    let value = self.layout.extremum::<S>(&worth, at, shape);
+                    if best.is_none_or(|(greatest, _)| value > greatest) {
+                        best = Some((value, input as u32));
+                    }
+                }
+            }
+            best
+        };
+        let mut found = vec![];
+        (0..self.cells.len())
+            .into_par_iter()
+            .with_min_len(BLOCK / 8)
+            .map(of_cell)
+            .collect_into_vec(&mut found);
+        self.cells.iter().zip(found).for_each(|(&cell, best)| {
+            if let Some((value, input)) = best {
+                note(cell, value, input);
+            }
+        });
+    }
 }

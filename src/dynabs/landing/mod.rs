@@ -2,7 +2,7 @@
 //!
 //! A lattice cuts space into sub-cells, `r` a cell and coordinate. The image of a cell under an input is covered by a
 //! box of sub-cells ([`Images`]); for every sub-cell there is a bound on the expected value after the noise
-//! ([`Landing::values`]); a step is one extremum over each box ([`Landing::best`]); a task is a [`Question`].
+//! ([`Landing::values`]); a step is one extremum over each box ([`Landing::best`], [`Layout`]); a task is a [`Question`].
 //!
 //! # Why it is sound
 //!
@@ -15,10 +15,12 @@
 //! All numbers are rounded to the side that they bound: sums of products of numbers in `[0, 1]` err by a known factor.
 
 mod axis;
+mod gather;
 mod images;
 mod invariant;
 mod kernel;
 mod layers;
+mod layout;
 mod model;
 mod side;
 mod solve;
@@ -28,10 +30,10 @@ mod taps;
 #[cfg(test)]
 mod tests;
 mod weights;
-mod windows;
 
 pub use axis::Axis;
-pub use images::{ImageSource, Images, LandingError, SizeClass, SubCells};
+pub use images::{ImageSource, Images, LandingError, occurring};
+pub use layout::Layout;
 pub use model::LandingModel;
 pub use side::{Lower, Side, Upper};
 pub use solve::{Aim, LandingSolution, Question};

@@ -13,6 +13,7 @@ use imdp::model::{
     ActionNames, ChoicesBuilder, ImdpError, IntervalMdp, Labels, ModelKind, Parts, RowId, RowRange, Rows,
     StateId, StateSet, StateVariables,
 };
+use std::collections::{BTreeSet, HashMap};
 
 /// An interval MDP whose cells come before everything else that there is for the encoding.
 #[derive(Clone, Debug)]
@@ -54,9 +55,7 @@ impl Question<'_> {
         push_any(&mut rows, vec![FAILED, if self.aim == Aim::Reach { REACHED } else { LOST }]);
         (0..ranges.places.len())
             .for_each(|range| push_any(&mut rows, vec![StateId::from_index(cells_end + range)]));
-        ranges.places.iter().for_each(|&(class, at)| {
-            push_any(&mut rows, self.sub_cells(&layers, class, at));
-        });
+        ranges.places.iter().for_each(|place| push_any(&mut rows, self.sub_cells(&layers, place)));
         layers.push_rows(&mut rows);
 
         let mut choices = ChoicesBuilder::with_capacity(states);
@@ -74,9 +73,9 @@ impl Question<'_> {
         let inputs = self.images.inputs();
         let mut pairs = ranges.of_pairs.iter().peekable();
         for &cell in self.open {
-            while let Some(&&(pair, range)) = pairs.peek().filter(|(pair, _)| pair / inputs == cell) {
+            while let Some(&&(_, input, range)) = pairs.peek().filter(|(of, ..)| *of == cell) {
                 choices.push_range(one(1 + range as usize));
-                ids.push(pair % inputs);
+                ids.push(input);
                 pairs.next();
             }
             choices.finish_state();
@@ -106,21 +105,14 @@ impl Question<'_> {
     }
 
     /// The states of the sub-cells of a box.
-    fn sub_cells(&self, layers: &Layers<'_>, class: u32, at: u32) -> Vec<StateId> {
-        let size = &self.images.classes()[class as usize].size;
+    fn sub_cells(&self, layers: &Layers<'_>, sides: &[(u32, u32)]) -> Vec<StateId> {
         let lens: Vec<usize> = self.landing.axes().iter().map(|axis| axis.len).collect();
-        let mut first = vec![0; lens.len()];
-        let mut rest = at as usize;
-        for j in (0..lens.len()).rev() {
-            first[j] = rest % lens[j];
-            rest /= lens[j];
-        }
-        let count: usize = size.iter().map(|&s| s as usize).product();
+        let count: usize = sides.iter().map(|&(_, size)| size as usize).product();
         let place = |mut index: usize| {
-            let mut place = first.clone();
-            for j in (0..lens.len()).rev() {
-                place[j] = (first[j] + index % size[j] as usize) % lens[j];
-                index /= size[j] as usize;
+            let mut place = vec![0; lens.len()];
+            for (j, &(first, size)) in sides.iter().enumerate().rev() {
+                place[j] = (first as usize + index % size as usize) % lens[j];
+                index /= size as usize;
             }
             layers.of_sub_cell(&place)
         };
@@ -136,27 +128,26 @@ fn set(states: usize, members: impl IntoIterator<Item = StateId>) -> StateSet {
 
 /// The distinct images.
 struct Ranges {
-    /// `(class, position)`, ascending.
-    places: Vec<(u32, u32)>,
-    /// `(cell · inputs + input, range)`, ascending.
-    of_pairs: Vec<(u32, u32)>,
+    /// By coordinate, where the box begins and how many sub-cells it has; ordered by sizes, then by beginnings.
+    places: Vec<Vec<(u32, u32)>>,
+    /// `(cell, input, range)`, ascending.
+    of_pairs: Vec<(u32, u32, u32)>,
 }
 
 impl Ranges {
     fn new(images: &Images) -> Self {
-        let all = || {
-            (0..)
-                .zip(images.classes())
-                .flat_map(|(class, images)| images.at.iter().map(move |&at| (class, at)))
+        let distinct: BTreeSet<(u32, u16)> = images.all().map(|(.., image)| image).collect();
+        let sizes_first = |sides: &[(u32, u32)]| -> (Vec<u32>, Vec<u32>) {
+            (sides.iter().map(|side| side.1).collect(), sides.iter().map(|side| side.0).collect())
         };
-        let mut places: Vec<(u32, u32)> = all().collect();
-        places.sort_unstable();
-        places.dedup();
-        let pairs = images.classes().iter().flat_map(|class| &class.of);
-        let range = |place| places.binary_search(&place).unwrap_or_default() as u32;
-        let mut of_pairs: Vec<_> = pairs.zip(all()).map(|(&pair, place)| (pair, range(place))).collect();
-        of_pairs.sort_unstable();
-        Self { places, of_pairs }
+        let mut boxes: Vec<_> = distinct.iter().map(|&image| (images.sub_cells(image), image)).collect();
+        boxes.sort_by_cached_key(|(sides, _)| sizes_first(sides));
+        let numbers: HashMap<(u32, u16), u32> =
+            (0..).zip(&boxes).map(|(range, (_, image))| (*image, range)).collect();
+        let of_pairs = images
+            .all()
+            .map(|(cell, input, image)| (cell, input, numbers.get(&image).copied().unwrap_or_default()));
+        Self { of_pairs: of_pairs.collect(), places: boxes.into_iter().map(|(sides, _)| sides).collect() }
     }
 }
 

@@ -5,12 +5,7 @@ use super::images::Images;
 use super::side::Side;
 use super::stage::Stage;
 use super::taps::Taps;
-use super::windows::{Extent, Windows};
 use imdp::solver::NO_CHOICE;
-use rayon::prelude::*;
-
-/// How many cells one task looks at.
-const BLOCK: usize = 1 << 13;
 
 /// The lattice on which images land, and the noise that takes them on.
 #[derive(Clone, Debug)]
@@ -18,7 +13,6 @@ pub struct Landing {
     axes: Vec<Axis>,
     /// In the order in which they are applied, with the axis that each is about.
     stages: Vec<(usize, Stage)>,
-    extents: Vec<Extent>,
 }
 
 /// The best input of every cell and what it is worth.
@@ -36,12 +30,7 @@ impl Landing {
         let mut stages: Vec<_> = axes.iter().map(Stage::new).enumerate().collect();
         // Those that make the array longer last: the others then have less to do.
         stages.sort_by(|(_, a), (_, b)| a.growth().total_cmp(&b.growth()));
-        let mut stride = axes.iter().map(|axis| axis.len).product::<usize>();
-        let extent = |axis: &Axis| {
-            stride /= axis.len;
-            Extent { len: axis.len, stride, periodic: axis.periodic }
-        };
-        Self { extents: axes.iter().map(extent).collect(), stages, axes }
+        Self { stages, axes }
     }
 
     /// The axes.
@@ -92,36 +81,11 @@ impl Landing {
 
     /// The best input of every cell for the values of all cells.
     pub fn best<S: Side>(&self, images: &Images, of_cells: &[f64]) -> Best {
-        let landed = self.values::<S>(of_cells);
-        let mut windows = Windows::new(&self.extents, &landed);
         let mut best = Best { values: vec![0.0; of_cells.len()], inputs: vec![NO_CHOICE; of_cells.len()] };
-        let inputs = images.inputs();
-        for class in images.classes() {
-            let worth = windows.of::<S>(&class.size);
-            let blocks = best.values.par_chunks_mut(BLOCK).zip(best.inputs.par_chunks_mut(BLOCK));
-            blocks.enumerate().for_each(|(block, (values, choices))| {
-                let first = (block * BLOCK) as u32;
-                let from = class.of.partition_point(|&pair| pair / inputs < first);
-                let pairs = class.of[from..].iter().zip(&class.at[from..]);
-                for (&pair, &at) in pairs {
-                    let (cell, input) = ((pair / inputs - first) as usize, pair % inputs);
-                    if cell >= values.len() {
-                        break;
-                    }
-                    let value = worth[at as usize];
-                    if value > values[cell] || (value == values[cell] && input < choices[cell]) {
-                        values[cell] = value;
-                        choices[cell] = input;
-                    }
-                }
-            });
-        }
+        images.best::<S>(self.values::<S>(of_cells), |cell, value, input| {
+            best.values[cell as usize] = value;
+            best.inputs[cell as usize] = input;
+        });
         best
-    }
-
-    /// Bytes that a step needs at most, beside the values: the arrays of stages and windows.
-    pub fn bytes(&self) -> u64 {
-        let lattice: u64 = self.extents.iter().map(|extent| extent.len as u64).product();
-        8 * lattice * (3 + self.extents.len() as u64)
     }
 }

@@ -24,7 +24,8 @@ pub struct RegionLookup {
 impl CellLookup {
     /// The lookup of a grid.
     pub fn new(grid: &Grid) -> Self {
-        let faces = |axis: &super::grid::GridAxis| (0..=axis.cells()).map(|i| to_f64(&axis.face(i))).collect();
+        let faces =
+            |axis: &super::grid::GridAxis| (0..=axis.cells()).map(|i| to_f64(&axis.face(i))).collect();
         Self { faces: grid.axes().iter().map(faces).collect(), strides: grid.strides().to_vec() }
     }
 

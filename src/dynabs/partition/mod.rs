@@ -8,7 +8,7 @@ mod labels;
 mod lookup;
 mod region;
 
-pub use grid::{GridAxis, CellId, Grid, GridError};
+pub use grid::{CellId, Grid, GridAxis, GridError};
 pub use labels::{CellKind, CellLabels};
 pub use lookup::{CellLookup, RegionLookup};
 pub use region::{NearMiss, Region, first_overlap, near_misses};

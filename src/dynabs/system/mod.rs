@@ -20,7 +20,7 @@ mod two_layer;
 pub use feedback::Feedback;
 pub use gain::narrowing_gain;
 pub use grouping::{TooManyDigits, group, require_digits, smallest_group};
-pub use image::{ImageError, ImageScratch, ImageMap, Lattice, LatticeRange};
+pub use image::{ImageError, ImageMap, ImageScratch, Lattice, LatticeRange};
 pub use interval::Interval;
 pub use law::{Extent, FeedbackLaw, SteeringConstraint, decimal_gain, lower_layer_violation};
 pub use linear_system::LinearSystem;

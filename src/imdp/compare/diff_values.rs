@@ -1,6 +1,6 @@
 //! Results of properties, and values of states.
 
-use super::{DiffOptions, Differences, Record, RecordedResult, Section, RecordedValues};
+use super::{DiffOptions, Differences, Record, RecordedResult, RecordedValues, Section};
 
 /// Compares the answers to properties that both sides have, paired by their text.
 pub(super) fn diff_results(left: &Record, right: &Record, options: &DiffOptions, out: &mut Differences) {

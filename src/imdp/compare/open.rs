@@ -1,6 +1,6 @@
 //! Finding out what a path holds.
 
-use super::{CompareError, PolicyFile, Record, RecordedResult, Reference, Sizes, RecordedValues};
+use super::{CompareError, PolicyFile, Record, RecordedResult, RecordedValues, Reference, Sizes};
 use crate::files;
 use crate::formats::{Format, bmdp};
 use crate::property::{Definitions, Entry, Inquiry, Property, parse_document};

@@ -1,7 +1,7 @@
 //! Reference files: what a model and its values are known to be.
 
 use super::compact_json::compact_json;
-use super::{CompareError, ModelDigest, Record, RecordedResult, Sizes, RecordedValues};
+use super::{CompareError, ModelDigest, Record, RecordedResult, RecordedValues, Sizes};
 use serde::{Deserialize, Serialize};
 
 const FORMAT: &str = "dynabs reference";

@@ -15,8 +15,11 @@ pub fn raised(model: &IntervalMdp) -> Result<Option<IntervalMdp>, ImdpError> {
     let mut rows = Rows::with_capacity(model.rows().len(), model.rows().num_entries());
     model.rows().for_each(|_, row| {
         for (i, &successor) in row.successors.iter().enumerate() {
-            let lower = if row.lower[i] == 0.0 { RAISED_LOWER_BOUND } else { row.lower[i] };
-            rows.push_entry(successor, lower, row.upper[i].max(lower));
+            let (lower, upper) = (row.lower[i], row.upper[i]);
+            let tiny = 0.0 < upper && upper < RAISED_LOWER_BOUND;
+            let raised = if tiny { upper } else { RAISED_LOWER_BOUND };
+            let lower = if lower == 0.0 { raised } else { lower };
+            rows.push_entry(successor, lower, upper.max(lower));
             for end in [End::Lower, End::Upper] {
                 row.exact_bound(end, i).into_iter().for_each(|exact| rows.set_exact(end, exact.clone()));
             }

@@ -1,11 +1,10 @@
 //! The probability of a run that an automaton from a file accepts.
 
 use super::expression::Evaluator;
-use super::{EvaluationError, Truth};
+use super::{EvaluationError, Known, Truth};
 use crate::automaton::{MarkedAutomaton, read_hoa};
 use crate::files;
 use crate::property::{AutomatonPath, Resolution};
-use crate::solver::ValueBounds;
 
 impl Evaluator<'_> {
     /// Bounds on the probability that the automaton accepts.
@@ -13,7 +12,7 @@ impl Evaluator<'_> {
         &mut self,
         path: &AutomatonPath,
         resolution: Resolution,
-    ) -> Result<ValueBounds, EvaluationError> {
+    ) -> Result<Known, EvaluationError> {
         let file = &path.file;
         let wrong = |problem: String| EvaluationError::Automaton { file: file.clone(), problem };
         let text = files::read_text(file).map_err(|error| wrong(error.to_string()))?;

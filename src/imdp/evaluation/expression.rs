@@ -1,13 +1,14 @@
 //! Evaluating expressions.
 
-use super::{EvaluationError, Nature, Numbers, Truth, Values, interval};
-use crate::model::{IntervalMdp, VariableValues};
+use super::{EvaluationError, Known, Nature, Numbers, Truth, Values, interval};
+use crate::model::{IntervalMdp, StateSet, VariableValues};
 use crate::numeric::{Rational, to_f64_down, to_f64_up};
 use crate::property::{
     BinaryOperator, Constant, Function, Node, NodeKind, Relation, Verdict, arithmetic, call, constant,
     formula, is_formula,
 };
-use crate::solver::{Policy, SolverOptions, Status, ValueBounds};
+use crate::solver::{Inexact, Policy, SolverOptions, Status};
+use std::collections::HashMap;
 
 /// Evaluates expressions on a model.
 pub(super) struct Evaluator<'a> {
@@ -19,6 +20,12 @@ pub(super) struct Evaluator<'a> {
     pub(super) policy: Option<Policy>,
     /// How many operators were solved.
     pub(super) operators: usize,
+    /// The states in which probabilities are wanted exactly, and nowhere else; none if bounds are wanted.
+    pub(super) exactly: Option<StateSet>,
+    /// Why a probability could not be had exactly, if so.
+    pub(super) inexact: Option<Inexact>,
+    /// Formulas with operators that have been evaluated, by where they stand.
+    truths: HashMap<*const Node, Truth>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -31,12 +38,15 @@ impl<'a> Evaluator<'a> {
             iterations: 0,
             policy: None,
             operators: 0,
+            exactly: None,
+            inexact: None,
+            truths: HashMap::new(),
         }
     }
 
-    pub(super) fn finish(self) -> (Status, u64, Option<Policy>) {
-        let policy = self.policy.filter(|_| self.operators == 1);
-        (self.status, self.iterations, policy)
+    /// The policy, if there is one for all that was asked.
+    pub(super) fn finish(self) -> Option<Policy> {
+        self.policy.filter(|_| self.operators == 1)
     }
 
     /// What an expression comes to, formula or number.
@@ -61,6 +71,19 @@ impl<'a> Evaluator<'a> {
         if let Some(formula) = formula(node) {
             return Ok(Truth::exact(formula.evaluate(self.model)?));
         }
+        if let Some(truth) = self.truths.get(&std::ptr::from_ref(node)) {
+            return Ok(truth.clone());
+        }
+        let exactly = self.exactly.take();
+        let truth = self.new_truth(node);
+        self.exactly = exactly;
+        let truth = truth?;
+        self.truths.insert(node, truth.clone());
+        Ok(truth)
+    }
+
+    /// The same for a formula that has not been evaluated before.
+    fn new_truth(&mut self, node: &Node) -> Result<Truth, EvaluationError> {
         let states = self.model.num_states();
         Ok(match &node.kind {
             NodeKind::Not(operand) => self.truth(operand)?.not(),
@@ -120,8 +143,28 @@ impl<'a> Evaluator<'a> {
             let same = left.iff(&self.truth(right)?);
             return Ok(if comparison == Relation::Equal { same } else { same.not() });
         }
-        let (left, right) = (self.numbers(left)?, self.numbers(right)?);
-        Ok(compare(comparison, &left, &right))
+        self.compared(comparison, |evaluator| Ok((evaluator.numbers(left)?, evaluator.numbers(right)?)))
+    }
+
+    /// Where two numbers compare like this; where their bounds do not tell, their exact values are asked for.
+    pub(super) fn compared(
+        &mut self,
+        comparison: Relation,
+        mut numbers: impl FnMut(&mut Self) -> Result<(Numbers, Numbers), EvaluationError>,
+    ) -> Result<Truth, EvaluationError> {
+        let (left, right) = numbers(self)?;
+        let truth = compare(comparison, &left, &right);
+        let stopped = matches!(self.status, Status::IterationLimit | Status::TimeLimit | Status::Interrupted);
+        if truth.is_exact() || stopped {
+            return Ok(truth);
+        }
+        let mut open = truth.may.clone();
+        open.difference_with(&truth.must);
+        self.exactly = Some(open);
+        let exact = numbers(self);
+        self.exactly = None;
+        let (left, right) = exact?;
+        Ok(truth.refined(&compare(comparison, &left, &right)))
     }
 
     /// The value of a number in every state.
@@ -157,7 +200,7 @@ impl<'a> Evaluator<'a> {
                         (a.0.min(b.0), a.1.max(b.1))
                     }
                 };
-                if condition.is_exact() && [&then, &otherwise].iter().all(|part| part.exact(0).is_some()) {
+                if condition.is_exact() && [&then, &otherwise].iter().all(|part| part.is_exact()) {
                     self.require_numbers(states)?;
                     let exact = |state: usize| {
                         let part = if condition.must.contains(state) { &then } else { &otherwise };
@@ -165,7 +208,12 @@ impl<'a> Evaluator<'a> {
                     };
                     return Ok(Numbers::Exact((0..states).filter_map(exact).collect()));
                 }
-                Ok(bounds((0..states).map(choose)))
+                let exact = |state| match condition.verdict(state) {
+                    Verdict::Holds => then.exact(state).cloned(),
+                    Verdict::Fails => otherwise.exact(state).cloned(),
+                    Verdict::Unknown => None,
+                };
+                Ok(self.known((0..states).map(choose), exact))
             }
             NodeKind::Operator(operator) => self.operator(operator).map(Numbers::Bounds),
             NodeKind::Filter(filter) => match self.filter(filter)? {
@@ -183,7 +231,7 @@ impl<'a> Evaluator<'a> {
         right: &Numbers,
     ) -> Result<Numbers, EvaluationError> {
         let states = left.len();
-        if left.exact(0).is_some() && right.exact(0).is_some() {
+        if left.is_exact() && right.is_exact() {
             self.require_numbers(states)?;
             let value = |state: usize| {
                 let operands = left.exact(state).cloned().zip(right.exact(state).cloned());
@@ -193,12 +241,26 @@ impl<'a> Evaluator<'a> {
             return (0..states).map(value).collect::<Result<_, _>>().map(Numbers::Exact);
         }
         let value = |state| interval::arithmetic(operator, left.bounds(state), right.bounds(state));
-        Ok(bounds((0..states).map(value)))
+        let exact =
+            |state: usize| arithmetic(operator, left.exact(state)?.clone(), right.exact(state)?.clone());
+        Ok(self.known((0..states).map(value), exact))
+    }
+
+    /// Bounds state by state, with exact numbers where they are wanted and known.
+    fn known(
+        &self,
+        values: impl Iterator<Item = (f64, f64)>,
+        exact: impl Fn(usize) -> Option<Rational>,
+    ) -> Numbers {
+        let (lower, upper) = values.unzip();
+        let wanted = self.exactly.iter().flat_map(StateSet::ones);
+        let exact = wanted.filter_map(|state| exact(state).map(|value| (state, value))).collect();
+        Numbers::Bounds(Known { exact, ..Known::within(lower, upper) })
     }
 
     fn function(&self, function: Function, arguments: &[Numbers]) -> Result<Numbers, EvaluationError> {
         let states = self.model.num_states();
-        if arguments.iter().all(|argument| argument.exact(0).is_some()) {
+        if arguments.iter().all(Numbers::is_exact) {
             self.require_numbers(states)?;
             let value = |state: usize| {
                 let values: Option<Vec<_>> =
@@ -224,14 +286,12 @@ impl<'a> Evaluator<'a> {
             Function::Round => interval::monotone(|x| (x + 0.5).floor(), fold(state, f64::min)),
             Function::Modulo | Function::Power => (f64::NEG_INFINITY, f64::INFINITY),
         };
-        Ok(bounds((0..states).map(value)))
+        let exact = |state: usize| {
+            let values = arguments.iter().map(|argument| argument.exact(state).cloned());
+            call(function, &values.collect::<Option<Vec<_>>>()?)
+        };
+        Ok(self.known((0..states).map(value), exact))
     }
-}
-
-/// Bounds state by state.
-pub(super) fn bounds(values: impl Iterator<Item = (f64, f64)>) -> Numbers {
-    let (lower, upper) = values.unzip();
-    Numbers::Bounds(ValueBounds { lower, upper })
 }
 
 /// Where numbers compare like this.

@@ -1,8 +1,9 @@
 //! Filters: one value from those of many states.
 
-use super::expression::{Evaluator, bounds};
+use super::expression::Evaluator;
 use super::interval;
 use super::{EvaluationError, Numbers, Truth, Values};
+use crate::numeric::Rational;
 use crate::property::{BinaryOperator, Filter, FilterOperator, Verdict};
 
 impl Evaluator<'_> {
@@ -14,7 +15,16 @@ impl Evaluator<'_> {
             None => Truth::constant(true, states),
         };
         let selected: Vec<usize> = selected.decided()?.ones().collect();
-        let value = self.values(&filter.operand)?;
+        // What is wanted of a filter in any state is wanted of its operand in those that the filter selects.
+        let exactly = self.exactly.take();
+        if exactly.is_some() {
+            let mut wanted = crate::model::StateSet::with_capacity(states);
+            selected.iter().for_each(|&state| wanted.insert(state));
+            self.exactly = Some(wanted);
+        }
+        let value = self.values(&filter.operand);
+        self.exactly = exactly;
+        let value = value?;
         if selected.is_empty() && filter.operator != FilterOperator::Print {
             return Err(EvaluationError::NoState);
         }
@@ -72,6 +82,9 @@ fn of_numbers(
             .unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
     };
     let sum = || all().reduce(|a, b| interval::arithmetic(BinaryOperator::Add, a, b)).unwrap_or((0.0, 0.0));
+    if let Some(value) = exact_number(operator, &numbers, selected) {
+        return Ok(Values::Numbers(Numbers::Constant(value, states)));
+    }
     let value = match operator {
         FilterOperator::Minimum => fold(f64::min),
         FilterOperator::Maximum => fold(f64::max),
@@ -83,7 +96,22 @@ fn of_numbers(
         FilterOperator::State | FilterOperator::First => numbers.bounds(only(operator, selected)?),
         _ => return Ok(Values::Numbers(numbers)),
     };
-    Ok(Values::Numbers(bounds(std::iter::repeat_n(value, states))))
+    Ok(Values::Numbers(Numbers::constant_bounds(value, states)))
+}
+
+/// The same if it is known exactly in all selected states.
+fn exact_number(operator: FilterOperator, numbers: &Numbers, selected: &[usize]) -> Option<Rational> {
+    let selected = if operator == FilterOperator::First { selected.get(..1)? } else { selected };
+    let all = selected.iter().map(|&state| numbers.exact(state).cloned()).collect::<Option<Vec<_>>>()?;
+    let count = Rational::from_integer(all.len().into());
+    match operator {
+        FilterOperator::Minimum => all.into_iter().min(),
+        FilterOperator::Maximum => all.into_iter().max(),
+        FilterOperator::Sum => Some(all.into_iter().sum()),
+        FilterOperator::Average if !all.is_empty() => Some(all.into_iter().sum::<Rational>() / count),
+        FilterOperator::State | FilterOperator::First if all.len() == 1 => all.into_iter().next(),
+        _ => None,
+    }
 }
 
 /// The state that is meant.

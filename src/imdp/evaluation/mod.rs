@@ -20,12 +20,12 @@ mod truth;
 
 pub use directions::{Nature, direct};
 pub use error::EvaluationError;
-pub use numbers::Numbers;
+pub use numbers::{Known, Numbers};
 pub use truth::Truth;
 
 use crate::model::{IntervalMdp, StateId};
 use crate::property::{Compound, Verdict};
-use crate::solver::{Policy, SolverOptions, Status};
+use crate::solver::{Inexact, Policy, SolverOptions, Status};
 use expression::Evaluator;
 
 /// What an expression comes to in every state.
@@ -46,6 +46,8 @@ pub struct Evaluation {
     pub status: Status,
     /// The number of iterations of all of them.
     pub iterations: u64,
+    /// Why an exact value that a comparison asked for could not be had, if so.
+    pub inexact: Option<Inexact>,
     /// The policy, if the expression is a single operator and it was asked for.
     pub policy: Option<Policy>,
 }
@@ -63,8 +65,8 @@ impl Evaluation {
     ) -> Result<Self, EvaluationError> {
         let mut evaluator = Evaluator::new(model, nature, *options);
         let values = evaluator.values(&compound.root)?;
-        let (status, iterations, policy) = evaluator.finish();
-        Ok(Self { values, status, iterations, policy })
+        let Evaluator { status, iterations, inexact, .. } = evaluator;
+        Ok(Self { values, status, iterations, inexact, policy: evaluator.finish() })
     }
 
     /// Bounds on the value in a state; none if it is a formula.

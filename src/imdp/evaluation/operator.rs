@@ -1,8 +1,8 @@
 //! The operators `P` and `R`.
 
-use super::expression::{Evaluator, compare};
+use super::expression::Evaluator;
 use super::path::is_path;
-use super::{EvaluationError, Numbers, Truth, directions};
+use super::{EvaluationError, Known, Numbers, Truth, directions};
 use crate::model::RewardStructure;
 use crate::numeric::to_f64;
 use crate::property::{
@@ -19,36 +19,35 @@ impl Evaluator<'_> {
             return Ok(Truth::constant(false, self.model.num_states()));
         };
         let resolution = if comparison.is_lower_bound() { Resolution::Pminmin } else { Resolution::Pmaxmax };
-        let values = Numbers::Bounds(self.measured(&operator.measured, resolution)?);
-        let threshold = self.numbers(threshold)?;
         let comparison = match comparison {
             ThresholdComparison::AtLeast => Relation::GreaterEqual,
             ThresholdComparison::Above => Relation::Greater,
             ThresholdComparison::AtMost => Relation::LessEqual,
             ThresholdComparison::Below => Relation::Less,
         };
-        Ok(compare(comparison, &values, &threshold))
+        self.compared(comparison, |evaluator| {
+            let values = Numbers::Bounds(evaluator.measured(&operator.measured, resolution)?);
+            Ok((values, evaluator.numbers(threshold)?))
+        })
     }
 
     /// `Pmaxmin=? […]` and the like: bounds on the value.
-    pub(super) fn operator(&mut self, operator: &Operator) -> Result<ValueBounds, EvaluationError> {
-        let Asked::Value(optimum) = operator.asked else {
-            let states = self.model.num_states();
-            return Ok(ValueBounds { lower: vec![0.0; states], upper: vec![f64::INFINITY; states] });
-        };
+    pub(super) fn operator(&mut self, operator: &Operator) -> Result<Known, EvaluationError> {
+        let Asked::Value(optimum) = operator.asked else { return Ok(self.nothing_known()) };
         let resolution = directions::resolution(optimum, self.model, self.nature)?;
         self.measured(&operator.measured, resolution)
     }
 
-    fn measured(
-        &mut self,
-        measured: &Measured,
-        resolution: Resolution,
-    ) -> Result<ValueBounds, EvaluationError> {
-        self.operators += 1;
+    fn measured(&mut self, measured: &Measured, resolution: Resolution) -> Result<Known, EvaluationError> {
+        self.operators += usize::from(self.exactly.is_none());
         match measured {
             Measured::Probability(path) => self.probability(path, resolution),
-            Measured::Reward(structure, path) => self.reward(structure, path, resolution),
+            // Rewards are known within bounds only.
+            Measured::Reward(..) if self.exactly.is_some() => Ok(self.nothing_known()),
+            Measured::Reward(structure, path) => {
+                let bounds = self.reward(structure, path, resolution)?;
+                Ok(Known::within(bounds.lower, bounds.upper))
+            }
         }
     }
 
@@ -105,6 +104,11 @@ impl Evaluator<'_> {
         }
         self.policy = solution.policy;
         solution.values
+    }
+
+    pub(super) fn nothing_known(&self) -> Known {
+        let states = self.model.num_states();
+        Known::within(vec![0.0; states], vec![f64::INFINITY; states])
     }
 }
 

@@ -2,12 +2,13 @@
 
 use super::expression::Evaluator;
 use super::operator::steps;
-use super::{EvaluationError, Truth};
+use super::{EvaluationError, Known, Truth};
 use crate::automaton::Ltl;
+use crate::model::IntervalMdp;
 use crate::property::{
     BinaryOperator, Node, NodeKind, Resolution, StepBounds, TemporalOperator, UntilOperator,
 };
-use crate::solver::{Event, ValueBounds, solve, solve_delayed};
+use crate::solver::{Event, SolverOptions, exact_values, solve, solve_delayed};
 
 /// `safe U[first, last] goal`
 struct PathEvent {
@@ -23,7 +24,7 @@ impl Evaluator<'_> {
         &mut self,
         path: &Node,
         resolution: Resolution,
-    ) -> Result<ValueBounds, EvaluationError> {
+    ) -> Result<Known, EvaluationError> {
         match &path.kind {
             NodeKind::Automaton(automaton) => return self.automaton(automaton, resolution),
             NodeKind::Not(operand) => {
@@ -72,30 +73,62 @@ impl Evaluator<'_> {
         self.omega(&formula, &propositions, resolution)
     }
 
-    fn next(&mut self, goal: &Truth, resolution: Resolution) -> Result<ValueBounds, EvaluationError> {
-        let lower = solve(self.model, &Event::Next { goal: &goal.must }, resolution, &self.options)?;
-        if goal.is_exact() {
-            return Ok(self.note(lower));
-        }
-        let upper = solve(self.model, &Event::Next { goal: &goal.may }, resolution, &self.options)?;
-        let (lower, upper) = (self.note(lower).lower, self.note(upper).upper);
-        Ok(ValueBounds { lower, upper })
+    fn next(&mut self, goal: &Truth, resolution: Resolution) -> Result<Known, EvaluationError> {
+        let (model, options) = (self.model, self.options);
+        let next = |goal| Event::Next { goal };
+        self.between(goal.is_exact(), &mut |this: &mut Self, certain| {
+            let goal = if certain { &goal.must } else { &goal.may };
+            this.solved((model, &options), &next(goal), 0, resolution)
+        })
     }
 
-    fn event(&mut self, event: &PathEvent, resolution: Resolution) -> Result<ValueBounds, EvaluationError> {
+    fn event(&mut self, event: &PathEvent, resolution: Resolution) -> Result<Known, EvaluationError> {
+        let (model, options) = (self.model, self.options);
         let PathEvent { safe, goal, first, last } = event;
-        let until = |safe, goal, this: &Self| match first {
-            0 => solve(this.model, &Event::Until { safe, goal, steps: *last }, resolution, &this.options),
-            _ => solve_delayed(this.model, (safe, goal), (*first, *last), resolution, &this.options),
-        };
-        // More safe states and more goal states make the event more probable.
-        let lower = until(&safe.must, &goal.must, self)?;
-        if safe.is_exact() && goal.is_exact() {
-            return Ok(self.note(lower));
+        self.between(safe.is_exact() && goal.is_exact(), &mut |this: &mut Self, certain| {
+            let (safe, goal) = if certain { (&safe.must, &goal.must) } else { (&safe.may, &goal.may) };
+            let steps = last.map(|last| last.saturating_sub(*first));
+            this.solved((model, &options), &Event::Until { safe, goal, steps }, *first, resolution)
+        })
+    }
+
+    /// Bounds from the states that an event is about for certain, and from those that it may be about: more safe states and
+    /// more goal states make it more probable.
+    fn between(
+        &mut self,
+        is_exact: bool,
+        solved: &mut dyn FnMut(&mut Self, bool) -> Result<Known, EvaluationError>,
+    ) -> Result<Known, EvaluationError> {
+        if is_exact {
+            return solved(self, true);
         }
-        let upper = until(&safe.may, &goal.may, self)?;
-        let (lower, upper) = (self.note(lower).lower, self.note(upper).upper);
-        Ok(ValueBounds { lower, upper })
+        let (lower, upper) = (solved(self, true)?, solved(self, false)?);
+        Ok(Known::within(lower.bounds.lower, upper.bounds.upper))
+    }
+
+    /// What is known about the probability of an event that begins after so many steps in safe states.
+    pub(super) fn solved(
+        &mut self,
+        (model, options): (&IntervalMdp, &SolverOptions<'_>),
+        event: &Event<'_>,
+        first: u64,
+        resolution: Resolution,
+    ) -> Result<Known, EvaluationError> {
+        if let Some(wanted) = &self.exactly {
+            let (lower, upper) = (vec![0.0; model.num_states()], vec![1.0; model.num_states()]);
+            let exact = exact_values(model, event, first, resolution, wanted, options);
+            self.inexact = exact.as_ref().err().copied().or(self.inexact);
+            return Ok(Known { exact: exact.unwrap_or_default(), ..Known::within(lower, upper) });
+        }
+        let solution = match *event {
+            Event::Until { safe, goal, steps } if first > 0 => {
+                let last = steps.map(|steps| steps.saturating_add(first));
+                solve_delayed(model, (safe, goal), (first, last), resolution, options)?
+            }
+            _ => solve(model, event, resolution, options)?,
+        };
+        let values = self.note(solution);
+        Ok(Known::within(values.lower, values.upper))
     }
 
     /// A path formula over propositions, which are collected.

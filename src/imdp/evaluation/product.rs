@@ -1,14 +1,14 @@
 //! Path formulas of all kinds: a model and a deterministic automaton, step by step together.
 
 use super::expression::Evaluator;
-use super::{EvaluationError, Truth};
+use super::{EvaluationError, Known, Truth};
 use crate::automaton::{Acceptor, Automaton, Condition, Ltl};
 use crate::model::{
     ActionNames, ChoicesBuilder, IntervalMdp, Labels, Parts, RewardStructure, RowBuffer, RowId, RowRange,
     Rows, StateId, StateSet, StateVariables, require_memory,
 };
 use crate::property::Resolution;
-use crate::solver::{Acceptance, Event, ValueBounds, accepting_states, solve};
+use crate::solver::{Acceptance, Event, accepting_states};
 use std::collections::HashMap;
 
 /// What a state of the product takes in memory.
@@ -24,7 +24,7 @@ impl Evaluator<'_> {
         formula: &Ltl,
         propositions: &[Truth],
         resolution: Resolution,
-    ) -> Result<ValueBounds, EvaluationError> {
+    ) -> Result<Known, EvaluationError> {
         if !resolution.policy_maximises() {
             // A policy that minimises one formula maximises its negation.
             let negation = Ltl::Not(Box::new(formula.clone()));
@@ -39,7 +39,7 @@ impl Evaluator<'_> {
         acceptor: &mut dyn Acceptor,
         propositions: &[Truth],
         resolution: Resolution,
-    ) -> Result<ValueBounds, EvaluationError> {
+    ) -> Result<Known, EvaluationError> {
         let letters = self.letters(propositions)?;
         let product = Product::new(self.model, acceptor, &letters)?;
         let all = {
@@ -50,18 +50,33 @@ impl Evaluator<'_> {
         let upper_goal = product.goal(true);
         let lower_goal = if resolution.nature_maximises() { upper_goal.clone() } else { product.goal(false) };
         let options = crate::solver::SolverOptions { policy: false, evidence: false, ..self.options };
-        let until = |goal| {
-            solve(&product.model, &Event::Until { safe: &all, goal, steps: None }, resolution, &options)
+        // Where values are wanted exactly, they are those of where runs begin.
+        let exactly = self.exactly.take();
+        self.exactly = exactly.as_ref().map(|wanted| {
+            let mut starts = StateSet::with_capacity(product.model.num_states());
+            wanted.ones().for_each(|state| starts.insert(product.starts[state].index()));
+            starts
+        });
+        let until = |this: &mut Self, goal| {
+            let event = Event::Until { safe: &all, goal, steps: None };
+            this.solved((&product.model, &options), &event, 0, resolution)
         };
-        let lower = until(&lower_goal)?;
+        let lower = until(self, &lower_goal);
+        let upper = if lower_goal == upper_goal { None } else { Some(until(self, &upper_goal)) };
+        self.exactly = exactly;
+        let lower = lower?;
         let of_starts = |values: &[f64]| product.starts.iter().map(|&state| values[state.index()]).collect();
-        if lower_goal == upper_goal {
-            let values = self.note(lower);
-            return Ok(ValueBounds { lower: of_starts(&values.lower), upper: of_starts(&values.upper) });
-        }
-        let upper = until(&upper_goal)?;
-        let (lower, upper) = (self.note(lower), self.note(upper));
-        Ok(ValueBounds { lower: of_starts(&lower.lower), upper: of_starts(&upper.upper) })
+        Ok(match upper.transpose()? {
+            None => {
+                let exact = |(state, start): (usize, &StateId)| {
+                    lower.exact.get(&(start.index())).map(|value| (state, value.clone()))
+                };
+                let exact = product.starts.iter().enumerate().filter_map(exact).collect();
+                let Known { bounds, .. } = &lower;
+                Known { exact, ..Known::within(of_starts(&bounds.lower), of_starts(&bounds.upper)) }
+            }
+            Some(upper) => Known::within(of_starts(&lower.bounds.lower), of_starts(&upper.bounds.upper)),
+        })
     }
 
     /// For every state, the set of the propositions that hold in it.

@@ -57,6 +57,13 @@ impl Truth {
         }
     }
 
+    /// What follows from this and from something else that is known of the same formula.
+    pub(super) fn refined(mut self, other: &Self) -> Self {
+        self.must.union_with(&other.must);
+        self.may.intersect_with(&other.may);
+        self
+    }
+
     /// Where it does not hold.
     pub(super) fn not(mut self) -> Self {
         self.must.toggle_range(..);

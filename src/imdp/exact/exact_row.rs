@@ -48,10 +48,10 @@ pub(crate) enum ExactRow {
 /// `l = lower/scale`, `u = (lower + room)/scale` and `1 − Σ l = slack/scale`.
 #[derive(Clone, Debug)]
 pub(crate) struct Numerators<M> {
-    scale: M,
-    lower: Vec<M>,
-    room: Vec<M>,
-    slack: M,
+    pub scale: M,
+    pub lower: Vec<M>,
+    pub room: Vec<M>,
+    pub slack: M,
 }
 
 /// Which way nature pulls, and with it the order in which mass is poured.
@@ -97,13 +97,27 @@ impl ExactRow {
     fn of_rationals(row: Row<'_>) -> Option<Self> {
         let bounds = |end| (0..row.len()).map(|i| row.rational(end, i)).collect::<Vec<_>>();
         let (lower, upper) = (bounds(End::Lower), bounds(End::Upper));
-        let scale = lower.iter().chain(&upper).fold(BigInt::one(), |scale, bound| {
-            let common = &scale % bound.denom() == BigInt::zero();
-            if common { scale } else { common_multiple(scale, bound.denom()) }
-        });
-        let scaled = |bound: &Rational| (bound.numer() * (&scale / bound.denom())).to_biguint();
+        let denominators = lower.iter().chain(&upper).map(|bound| bound.denom().magnitude());
+        let scale = denominators.fold(BigUint::one(), common_multiple);
+        let scaled = |bound: &Rational| {
+            bound.numer().to_biguint().map(|numer| numer * (&scale / bound.denom().magnitude()))
+        };
         let scaled = |bounds: &[Rational]| bounds.iter().map(scaled).collect::<Option<Vec<_>>>();
-        Numerators::new(scale.to_biguint()?, scaled(&lower)?, scaled(&upper)?).map(Self::Big)
+        let (lower, upper) = (scaled(&lower)?, scaled(&upper)?);
+        Numerators::new(scale, lower, upper).map(Self::Big)
+    }
+
+    /// The bounds over their common denominator.
+    pub(crate) fn into_numerators(self) -> Numerators<BigUint> {
+        match self {
+            Self::Small(Numerators { scale, lower, room, slack }) => Numerators {
+                scale: scale.into(),
+                lower: lower.into_iter().map(BigUint::from).collect(),
+                room: room.into_iter().map(BigUint::from).collect(),
+                slack: slack.into(),
+            },
+            Self::Big(row) => row,
+        }
     }
 
     /// `min_p p·V` or `max_p p·V`.
@@ -139,10 +153,13 @@ impl ExactRow {
 }
 
 /// The least common multiple of two denominators.
-fn common_multiple(a: BigInt, b: &BigInt) -> BigInt {
+pub(crate) fn common_multiple(a: BigUint, b: &BigUint) -> BigUint {
+    if (&a % b).is_zero() {
+        return a;
+    }
     // `a/b` in lowest terms has the denominator `b / gcd(a, b)`.
-    let reduced = Rational::new(a.clone(), b.clone());
-    a * reduced.denom()
+    let reduced = Rational::new(a.clone().into(), b.clone().into());
+    a * reduced.denom().magnitude()
 }
 
 /// The row whose bounds are all numbers that may have been rounded to the given ones.

@@ -4,6 +4,6 @@ mod exact_row;
 mod support;
 mod values;
 
-pub(crate) use exact_row::{ExactRow, Nature};
+pub(crate) use exact_row::{ExactRow, Nature, Numerators, common_multiple};
 pub(crate) use support::maximal_support;
 pub(crate) use values::{ExactValues, Replaced};

@@ -4,10 +4,12 @@ use super::bmdp::BmdpWriter;
 use super::drn::DrnWriter;
 use super::names::NameError;
 use super::netcdf::{NetcdfError, NetcdfWriter};
-use super::prism::{MAX_COUNT, TraWriter, check_names, write_lab, write_sta};
+use super::prism::{MAX_COUNT, RewardFile, TraWriter, check_names, write_lab, write_sta};
 use super::umb::{Compression, UmbWriter};
 use super::{Format, native};
-use crate::model::{ExactBound, IntervalMdp, MemoryError, RowBuffer, RowId, StateId, require_memory};
+use crate::model::{
+    ExactBound, IntervalMdp, MemoryError, RewardStructure, RowBuffer, RowId, StateId, require_memory,
+};
 use crate::progress::Progress;
 use std::io::{self, Write};
 
@@ -152,6 +154,24 @@ impl<'a> ModelWriter<'a> {
             FormatWriter::Bmdp(_) => &["txt"],
             FormatWriter::Netcdf(_) => &["nc"],
         }
+    }
+
+    /// The files of what is earned, which PRISM has beside the others.
+    pub fn reward_files(&self) -> Vec<RewardFile<'a>> {
+        match self.format {
+            FormatWriter::Prism(_) => RewardFile::all(self.model),
+            _ => vec![],
+        }
+    }
+
+    /// The reward structures that the format cannot hold, by name: they are not written.
+    pub fn rewards_left_out(&self) -> Vec<&'a str> {
+        let is_left_out = |structure: &&RewardStructure| match self.format {
+            FormatWriter::Prism(_) | FormatWriter::Umb(..) => false,
+            FormatWriter::Drn(_) => !DrnWriter::holds(structure),
+            FormatWriter::Native | FormatWriter::Bmdp(_) | FormatWriter::Netcdf(_) => true,
+        };
+        self.model.rewards().iter().filter(is_left_out).map(|structure| structure.name.as_str()).collect()
     }
 
     /// The size of the largest file in bytes, before compression; 0 if it is small anyway.

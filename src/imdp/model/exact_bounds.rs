@@ -51,7 +51,8 @@ impl<'a> Row<'a> {
     pub fn text(&self, end: End, position: usize) -> String {
         match self.exact_bound(end, position) {
             Some(exact) => exact.to_string(),
-            None => shortest_decimal(self.bounds(end)[position]),
+            // The sum turns −0 into 0.
+            None => shortest_decimal(self.bounds(end)[position] + 0.0),
         }
     }
 }

@@ -71,11 +71,16 @@ impl RewardStructure {
         usize::try_from(choice).ok().and_then(|choice| self.choices.get(choice)).copied().unwrap_or(0.0)
     }
 
-    /// Sets what branches earn, by choice and position in its row; choices whose branches all earn the same are as well
-    /// those that earn it.
+    /// What a branch of a choice earns besides, by its position in the row.
+    pub fn of_branch(&self, choice: u64, position: usize) -> f64 {
+        self.branches.get(&choice).and_then(|branches| branches.get(position)).copied().unwrap_or(0.0)
+    }
+
+    /// Sets what branches earn, by choice and position in its row; choices that earn nothing else and whose branches all
+    /// earn the same are as well those that earn it.
     pub fn set_branches(&mut self, branches: BTreeMap<u64, Vec<f64>>, choices: u64) {
         for (choice, of_branches) in branches {
-            let same = of_branches.windows(2).all(|pair| pair[0] == pair[1]);
+            let same = of_branches.windows(2).all(|pair| pair[0] == pair[1]) && self.of_choice(choice) == 0.0;
             match of_branches.first() {
                 Some(&reward) if same => {
                     self.choices.resize(choices as usize, 0.0);

@@ -1,9 +1,13 @@
 //! A property answered: bounds at the initial states and a verdict.
 
-use super::{Event, Solution, SolveError, SolverOptions, ValueBounds, solve};
+use super::exact::settle;
+use super::{Event, Inexact, Solution, SolveError, SolverOptions, Status, ValueBounds, solve};
 use crate::certificate::{Certificate, FileDigest};
-use crate::model::{IntervalMdp, StateId};
+use crate::model::{IntervalMdp, StateId, StateSet};
+use crate::numeric::Rational;
 use crate::property::{Objective, Property, PropertyError, Query, Verdict};
+use num_traits::One;
+use std::collections::BTreeMap;
 
 /// What a property's question came to.
 #[derive(Clone, Debug)]
@@ -22,6 +26,10 @@ pub struct Answer {
     pub upper: f64,
     /// For thresholds: whether they hold in all initial states.
     pub verdict: Option<Verdict>,
+    /// The exact values, by state, where the threshold lies between the bounds.
+    pub exact: BTreeMap<StateId, Rational>,
+    /// Why there are none, if so.
+    pub inexact: Option<Inexact>,
 }
 
 /// Why a property has no answer.
@@ -48,7 +56,7 @@ impl Answer {
         let objective = property.resolve(model.kind())?;
         let query = objective.query(model)?;
         let solution = solve(model, &Event::from(&query.kind), query.resolution, options)?;
-        Ok(Self::assemble(model, objective, query, solution))
+        Ok(Self::assemble(model, objective, query, solution, options))
     }
 
     /// What a solution that was computed before says about `property` on `model`.
@@ -62,19 +70,65 @@ impl Answer {
     ) -> Result<Self, AnswerError> {
         let objective = property.resolve(model.kind())?;
         let query = objective.query(model)?;
-        Ok(Self::assemble(model, objective, query, solution))
+        Ok(Self::assemble(model, objective, query, solution, &SolverOptions::default()))
     }
 
-    fn assemble(model: &IntervalMdp, objective: Objective, query: Query, solution: Solution) -> Self {
-        let values = if query.complement { solution.values.complement() } else { solution.values.clone() };
-        let initial = || model.initial().ones();
-        let lower = initial().map(|s| values.lower[s]).fold(1.0, f64::min);
-        let upper = initial().map(|s| values.upper[s]).fold(0.0, f64::max);
-        let mut answer = Self { objective, query, solution, values, lower, upper, verdict: None };
-        let verdicts: Option<Vec<Verdict>> =
-            initial().map(|s| answer.verdict_of(StateId::from_index(s))).collect();
-        answer.verdict = verdicts.map(Verdict::in_all);
+    fn assemble(
+        model: &IntervalMdp,
+        objective: Objective,
+        query: Query,
+        solution: Solution,
+        options: &SolverOptions<'_>,
+    ) -> Self {
+        let values = ValueBounds { lower: vec![], upper: vec![] };
+        let (lower, upper, verdict, exact, inexact) = (0.0, 1.0, None, BTreeMap::new(), None);
+        let mut answer = Self { objective, query, solution, values, lower, upper, verdict, exact, inexact };
+        answer.summarise(model);
+        if answer.verdict == Some(Verdict::Unknown) {
+            answer.inexact = answer.decide(model, options).err();
+            answer.summarise(model);
+        }
         answer
+    }
+
+    /// What follows from the solution for the value of the property.
+    fn summarise(&mut self, model: &IntervalMdp) {
+        let values = &self.solution.values;
+        self.values = if self.query.complement { values.complement() } else { values.clone() };
+        let initial = || model.initial().ones();
+        self.lower = initial().map(|s| self.values.lower[s]).fold(1.0, f64::min);
+        self.upper = initial().map(|s| self.values.upper[s]).fold(0.0, f64::max);
+        let verdicts: Option<Vec<Verdict>> =
+            initial().map(|s| self.verdict_of(StateId::from_index(s))).collect();
+        self.verdict = verdicts.map(Verdict::in_all);
+    }
+
+    /// Computes the values of the states in which the threshold lies between the bounds exactly; if that is too much, only
+    /// those of initial states.
+    fn decide(&mut self, model: &IntervalMdp, options: &SolverOptions<'_>) -> Result<(), Inexact> {
+        if matches!(self.solution.status, Status::IterationLimit | Status::TimeLimit | Status::Interrupted) {
+            return Err(Inexact::Stopped);
+        }
+        let undecided = |s: &usize| self.verdict_of(StateId::from_index(*s)) == Some(Verdict::Unknown);
+        let mut wanted = StateSet::with_capacity(model.num_states());
+        (0..model.num_states()).filter(undecided).for_each(|s| wanted.insert(s));
+        let (event, players) = (Event::from(&self.query.kind), self.query.resolution.into());
+        // What evidence and policy there is tells what is wanted of them.
+        let options = SolverOptions {
+            policy: self.solution.policy.is_some(),
+            evidence: self.solution.evidence.is_some(),
+            ..*options
+        };
+        let mut settle =
+            |wanted: &StateSet| settle(model, &event, players, (&mut self.solution, wanted), &options);
+        let values = settle(&wanted).or_else(|reason| {
+            let all = wanted.clone();
+            wanted.intersect_with(model.initial());
+            if reason == Inexact::TooLarge && wanted != all { settle(&wanted) } else { Err(reason) }
+        })?;
+        let value = |value| if self.query.complement { Rational::one() - value } else { value };
+        self.exact = values.into_iter().map(|(s, exact)| (s, value(exact))).collect();
+        Ok(())
     }
 
     /// The certificate of this answer to `property`, for a model read from `files`.
@@ -98,7 +152,10 @@ impl Answer {
 
     /// Whether the threshold holds in one state; `None` if there is no threshold.
     pub fn verdict_of(&self, state: StateId) -> Option<Verdict> {
-        let bounds = (self.values.lower[state.index()], self.values.upper[state.index()]);
-        self.objective.threshold.as_ref().map(|threshold| threshold.decide(bounds.0, bounds.1))
+        let threshold = self.objective.threshold.as_ref()?;
+        Some(match self.exact.get(&state) {
+            Some(value) => threshold.decide_exactly(value, value),
+            None => threshold.decide(self.values.lower[state.index()], self.values.upper[state.index()]),
+        })
     }
 }

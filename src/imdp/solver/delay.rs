@@ -35,14 +35,8 @@ pub fn solve_delayed(
     let mut sweep = Sweep::new(model, players, states, &rows);
     let mut control = Control::new(options);
     let ValueBounds { lower, upper } = &mut solution.values;
-    // Where `safe` does not hold nothing can come of it any more, unless there is nothing to wait for.
-    if first > 0 {
-        for state in (0..lower.len()).filter(|&state| !safe.contains(state)) {
-            (lower[state], upper[state]) = (0.0, 0.0);
-        }
-    }
     let mut results = vec![];
-    for _ in 0..first {
+    for waited in 0..first {
         if let Some(reason) = control.stop() {
             solution.status = reason;
             let open = sweep.states.iter().map(|&s| s.index());
@@ -53,6 +47,12 @@ pub fn solve_delayed(
             sweep.evaluate_rows(values, side, &mut table);
             sweep.evaluate_states(&table, &mut results);
             sweep.states.iter().zip(&results).for_each(|(&s, &value)| values[s.index()] = value);
+            // Where `safe` does not hold nothing can come of waiting.
+            if waited == 0 {
+                (0..values.len())
+                    .filter(|&state| !safe.contains(state))
+                    .for_each(|state| values[state] = 0.0);
+            }
         }
         control.done(0.0);
         solution.iterations += 1;

@@ -13,6 +13,8 @@
 //!   from above by values that the operator does not raise (`unbounded`), and by linear equations where that is
 //!   too slow (`slow`).
 //!
+//! Where a threshold lies between the bounds, the values that decide it are computed exactly, if they are not too long (`exact`).
+//!
 //! Bounds of rows are read as the shortest decimals that give the doubles, or as what stands beside them. Without a step bound the value
 //! can jump with the last digit (whether upper bounds sum to 1 decides whether nature can stay for ever),
 //! so there the decimals are the model; step-bounded results hold for the doubles taken literally as well.
@@ -24,6 +26,7 @@ mod bounded;
 mod component;
 mod delay;
 mod evidence;
+mod exact;
 mod expectation;
 mod extrapolate;
 mod graph;
@@ -45,6 +48,8 @@ mod working_memory;
 
 pub use answer::{Answer, AnswerError};
 pub use delay::solve_delayed;
+pub use exact::Inexact;
+pub(crate) use exact::exact_values;
 pub use expectation::WorstExpectation;
 pub(crate) use graph::strong_components;
 pub(crate) use omega::{Acceptance, accepting_states};

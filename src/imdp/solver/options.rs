@@ -24,6 +24,9 @@ pub struct SolverOptions<'a> {
     pub history: usize,
     /// Whether what a certificate needs is wanted, which includes the policy.
     pub evidence: bool,
+    /// How much work may be spent on exact arithmetic where a threshold lies between the bounds, in multiplications of
+    /// 64 binary digits.
+    pub exact_work: u64,
 }
 
 impl Default for SolverOptions<'_> {
@@ -37,6 +40,8 @@ impl Default for SolverOptions<'_> {
             policy: false,
             history: 0,
             evidence: false,
+            // About a second.
+            exact_work: 1 << 28,
         }
     }
 }

@@ -53,6 +53,11 @@ impl Policy {
         self.horizon
     }
 
+    /// The number of states.
+    pub fn num_states(&self) -> usize {
+        self.starts.len() - 1
+    }
+
     /// The number of choices stored.
     pub fn num_entries(&self) -> usize {
         self.changes.len()

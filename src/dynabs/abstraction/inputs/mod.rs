@@ -6,7 +6,7 @@
 mod resolution;
 mod tables;
 
-use crate::landing::{Aim, Axis, Images, Landing, LandingError, Question};
+use crate::landing::{Aim, Axis, Images, Landing, LandingError, Layout, Question, occurring};
 use crate::noise::known::Distribution;
 use crate::partition::{CellId, CellKind};
 use crate::problem::InputProblem;
@@ -15,9 +15,6 @@ use imdp::model::{MemoryError, require_memory};
 use imdp::property::{PathFormula, Property, Resolution, StateFormula};
 use std::time::{Duration, Instant};
 use tables::Tables;
-
-/// What is stored of a cell and an input while blocks of them are put together: position and number, twice.
-const BYTES_OF_PAIR: u64 = 12;
 
 /// What is stored of a cell: values on both sides, the best of a step, inputs chosen.
 const BYTES_OF_CELL: u64 = 64;
@@ -80,7 +77,8 @@ impl InputAbstraction {
         let kinds = problem.labels();
         let ordinary: Vec<u32> =
             kinds.iter().filter(|(_, kind)| *kind == CellKind::Ordinary).map(|(cell, _)| cell.0).collect();
-        let extent = Images::extent(&tables, &ordinary, grid.dimension());
+        let occurs = occurring(&tables, &ordinary, grid.dimension());
+        let extent: Vec<_> = (0..grid.dimension()).map(|j| tables.extent(j, &occurs[j])).collect();
         let axis = |j: usize| {
             let cells = grid.axes()[j].cells() as usize;
             let noise = problem.noise()[j].as_ref().map(|noise: &Distribution| {
@@ -95,12 +93,13 @@ impl InputAbstraction {
         };
         let landing = Landing::new((0..grid.dimension()).map(axis).collect());
         let pairs = ordinary.len() as u64 * inputs.len() as u64;
-        let cells = u64::from(grid.num_cells());
+        let layout = Layout::new(&tables, &occurs, landing.axes(), pairs)?;
         require_memory(
             "the images of all cells and inputs",
-            BYTES_OF_PAIR * pairs + landing.bytes() + BYTES_OF_CELL * cells,
+            Images::bytes(&layout, ordinary.len(), inputs.len())
+                + BYTES_OF_CELL * u64::from(grid.num_cells()),
         )?;
-        let images = Images::new(&tables, &ordinary, landing.axes())?;
+        let images = Images::new(&tables, &ordinary, layout);
         let open = images.acting();
         let aim = problem.objective().aim();
         let phases = vec![("images", tabulated), ("landing", start.elapsed() - tabulated)];

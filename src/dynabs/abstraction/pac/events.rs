@@ -1,7 +1,7 @@
 //! The events of cells, and their intervals.
 
-use super::super::cell_counts::{Count, CellCounts, CellBox};
 use super::super::action_counts::ActionCounts;
+use super::super::cell_counts::{CellBox, CellCounts, Count};
 use super::super::targets::Targets;
 use super::bounds::{BoundTable, Interval};
 use crate::problem::Problem;

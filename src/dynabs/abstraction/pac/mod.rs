@@ -72,9 +72,9 @@ mod preference;
 mod prepared;
 
 use super::AbstractionError;
-use super::footprint::need_of_rows;
-use super::cell_counts::{CellCounts, RegionCounts, CellBox};
 use super::action_counts::{ActionCounts, TargetPlacements};
+use super::cell_counts::{CellBox, CellCounts, RegionCounts};
+use super::footprint::need_of_rows;
 use super::outcomes::{Outcome, Outcomes};
 use super::states::{FAILED, REACHED, StateSpace};
 use super::stencil::{BoxCount, Ground, Hits, Special, Stencil, StencilRows};

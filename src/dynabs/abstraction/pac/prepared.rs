@@ -1,8 +1,8 @@
 //! What comes before counting: the budget is spent, windows are laid.
 
 use super::super::AbstractionError;
-use super::super::hazards::Hazards;
 use super::super::action_counts::TargetPlacements;
+use super::super::hazards::Hazards;
 use super::super::targets::Targets;
 use super::super::windows::{Stack, Windows, shape_samples};
 use super::bounds::{DIGITS, SampleSize};

@@ -1,6 +1,6 @@
 //! How many samples land in cells of each kind, counted along runs.
 
-use super::super::cell_counts::{Count, CellCounts, RegionCounts, CellBox};
+use super::super::cell_counts::{CellBox, CellCounts, Count, RegionCounts};
 use super::{Ground, Runs};
 use imdp::model::StateId;
 
@@ -43,8 +43,8 @@ impl Hits {
         // Lost are all that are not found in other cells.
         counts.lost.add(&self.before[self.counts.len()], true, true);
         self.runs.for_each(ground, origin, |first, position, length| {
-            counts.lost.subtract(&self.before[position + length]);
             counts.lost.add(&self.before[position], true, true);
+            counts.lost.subtract(&self.before[position + length]);
             for (&state, count) in ground.states[first..first + length].iter().zip(&self.counts[position..]) {
                 if state <= Ground::LAST_MERGED {
                     let own = if state == StateId(0) { &mut counts.lost } else { &mut counts.goal };

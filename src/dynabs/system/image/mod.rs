@@ -126,6 +126,11 @@ impl ImageMap {
         matches!(self.rows[row].kind, RowKind::Affine(_))
     }
 
+    /// The coordinate of the next state that a row is about.
+    pub fn coordinate(&self, row: usize) -> usize {
+        self.rows[row].coordinate
+    }
+
     /// The sub-cells that the image of `cell` (its index in every dimension) meets, in the row's coordinate.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! Images against sampled states, exact cases, and controls.
 
-use super::{ImageScratch, ImageMap, Lattice, LatticeRange};
+use super::{ImageMap, ImageScratch, Lattice, LatticeRange};
 use crate::linear_algebra::ExactMatrix;
 use crate::partition::Grid;
 use crate::system::expression::{Graph, Scope, parse};

@@ -3,7 +3,8 @@
 use super::UNNAMED;
 use crate::files::interruption;
 use crate::formats::names::{NameError, NameRule, is_identifier};
-use crate::model::{ActionNames, End, IntervalMdp, ModelKind, RowId, StateId, StateSet};
+use crate::model::{ActionNames, End, IntervalMdp, ModelKind, RewardStructure, RowId, StateId, StateSet};
+use crate::numeric::shortest_decimal;
 use crate::progress::Progress;
 use std::convert::Infallible;
 use std::fmt::Write as _;
@@ -33,6 +34,7 @@ pub struct DrnWriter<'a> {
     model: &'a IntervalMdp,
     /// The initial states, then the labels with states, as they are printed.
     labels: Vec<(String, &'a StateSet)>,
+    rewards: Vec<(String, &'a RewardStructure)>,
     rows: RowTexts,
     bytes: u64,
 }
@@ -75,7 +77,8 @@ impl<'a> DrnWriter<'a> {
         let declared = model.labels().iter().filter(|(name, _)| *name != "init");
         let labels = std::iter::once(("init", model.initial())).chain(declared);
         let labels = labels.map(|(name, states)| (quoted(name), states)).collect();
-        let mut writer = Self { model, labels, rows: RowTexts::render(model), bytes: 0 };
+        let rewards = reward_names(model);
+        let mut writer = Self { model, labels, rewards, rows: RowTexts::render(model), bytes: 0 };
         let mut bytes = 0;
         let Ok(()) = writer.pieces(|piece| {
             bytes += piece.len() as u64;
@@ -83,6 +86,12 @@ impl<'a> DrnWriter<'a> {
         });
         writer.bytes = bytes;
         Ok(writer)
+    }
+
+    /// Whether a reward structure can be written: branches of a choice all earn the same in DRN.
+    pub fn holds(structure: &RewardStructure) -> bool {
+        structure.branches.is_empty()
+            && !structure.name.contains(|c: char| c.is_whitespace() || c.is_control())
     }
 
     /// The size of the file in bytes.
@@ -127,13 +136,20 @@ impl<'a> DrnWriter<'a> {
             if choices.ranges(state).is_empty() {
                 let name =
                     if choices.is_absorbing(state) { self.action(choice, 0, None) } else { UNNAMED.into() };
-                take(format!("\taction {name}\n\t\t{state} : [1, 1]\n").as_bytes())?;
+                text.clear();
+                let _ = write!(text, "\taction {name}");
+                let is_choice = choices.is_absorbing(state);
+                self.earned(&mut text, |rewards| if is_choice { rewards.of_choice(choice) } else { 0.0 });
+                let _ = write!(text, "\n\t\t{state} : [1, 1]\n");
+                take(text.as_bytes())?;
                 choice += u64::from(choices.is_absorbing(state));
             }
             for (index, row) in choices.rows(state).enumerate() {
                 text.clear();
                 // Writing to a string cannot fail.
-                let _ = writeln!(text, "\taction {}", self.action(choice, index, Some(row)));
+                let _ = write!(text, "\taction {}", self.action(choice, index, Some(row)));
+                self.earned(&mut text, |rewards| rewards.of_choice(choice));
+                text.push('\n');
                 take(text.as_bytes())?;
                 take(self.rows.row(row))?;
                 choice += 1;
@@ -160,9 +176,11 @@ impl<'a> DrnWriter<'a> {
         let states = model.num_states();
         let deadlocks = StateId::first(states).filter(|&state| model.choices().is_deadlock(state)).count();
         let choices = model.size().choices + deadlocks as u64;
+        let rewards: Vec<&str> = self.rewards.iter().map(|(name, _)| name.as_str()).collect();
+        let rewards = rewards.join(" ");
         let _ = write!(
             text,
-            "@type: {kind}\n@value_type: double-interval\n@parameters\n\n@reward_models\n\n@nr_states\n{states}\n\
+            "@type: {kind}\n@value_type: double-interval\n@parameters\n\n@reward_models\n{rewards}\n@nr_states\n{states}\n\
              @nr_choices\n{choices}\n@model\n"
         );
         text
@@ -172,6 +190,7 @@ impl<'a> DrnWriter<'a> {
     fn state_lines(&self, state: StateId, text: &mut String) {
         // Writing to a string cannot fail.
         let _ = write!(text, "state {state}");
+        self.earned(text, |rewards| rewards.of_state(state.index()));
         for (name, states) in &self.labels {
             if states.contains(state.index()) {
                 let _ = write!(text, " {name}");
@@ -191,12 +210,36 @@ impl<'a> DrnWriter<'a> {
         }
     }
 
+    /// Appends one value for each reward structure, as in ` [1, 0.5]`.
+    fn earned(&self, text: &mut String, value: impl Fn(&RewardStructure) -> f64) {
+        if !self.rewards.is_empty() {
+            let values: Vec<_> =
+                self.rewards.iter().map(|(_, structure)| shortest_decimal(value(structure))).collect();
+            // Writing to a string cannot fail.
+            let _ = write!(text, " [{}]", values.join(", "));
+        }
+    }
+
     fn action(&self, choice: u64, index: usize, row: Option<RowId>) -> String {
         match self.model.actions() {
             ActionNames::None => index.to_string(),
             names => names.name(choice, row).map_or_else(|| UNNAMED.to_owned(), Into::into),
         }
     }
+}
+
+/// The structures that are written, by names that DRN can express: one without a name gets one.
+fn reward_names<'m>(model: &'m IntervalMdp) -> Vec<(String, &'m RewardStructure)> {
+    let kept = || model.rewards().iter().filter(|structure| DrnWriter::holds(structure));
+    let named = |structure: &'m RewardStructure| {
+        let RewardStructure { name, .. } = structure;
+        let mut name = if name.is_empty() { "unnamed".to_owned() } else { name.clone() };
+        while structure.name.is_empty() && kept().any(|other| other.name == name) {
+            name.push('_');
+        }
+        (name, structure)
+    };
+    kept().map(named).collect()
 }
 
 /// A label as it is printed: in quotation marks unless it is an identifier.

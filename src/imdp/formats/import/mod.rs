@@ -32,6 +32,7 @@ pub(in crate::formats) use row_table::hash_row;
 pub(in crate::formats) use source::{Packing, Source, open, without_packing};
 pub(in crate::formats) use text::{Cursor, counted, describe};
 pub(in crate::formats) use variables::{Value, read_value, read_variable_value};
+pub(in crate::formats) use written::enclose;
 
 use crate::model::IntervalMdp;
 

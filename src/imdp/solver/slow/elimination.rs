@@ -8,9 +8,30 @@
 //! the sum including the probability to leave. Nothing is subtracted, so every entry keeps its relative accuracy
 //! however slowly the process is left. Whoever has the fewest ways in and out goes first, which keeps rows short.
 
+use crate::numeric::Rational;
 use num_traits::Num;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+
+/// Numbers, and what it takes to multiply them.
+pub(in crate::solver) trait Number: Clone + Num {
+    /// In multiplications of 64 binary digits.
+    fn cost(&self) -> u64;
+}
+
+impl Number for f64 {
+    fn cost(&self) -> u64 {
+        1
+    }
+}
+
+impl Number for Rational {
+    fn cost(&self) -> u64 {
+        // Fractions are brought to lowest terms, a binary digit at a time.
+        let digits = (self.numer().bits() + self.denom().bits()) / 64 + 1;
+        64 * digits * digits
+    }
+}
 
 /// The factors of `I − P`.
 #[derive(Debug)]
@@ -36,9 +57,9 @@ pub(in crate::solver) struct Process<T> {
     pub exits: Vec<T>,
 }
 
-impl<T: Clone + Num> Elimination<T> {
-    /// `None` if some state is never left, or it would take more than `budget` multiplications.
-    pub(in crate::solver) fn new(process: Process<T>, mut budget: u64) -> Option<Self> {
+impl<T: Number> Elimination<T> {
+    /// `None` if some state is never left, or it would cost more than what is left of the budget, which is used up.
+    pub(in crate::solver) fn new(process: Process<T>, budget: &mut u64) -> Option<Self> {
         let Process { mut rows, mut exits } = process;
         let states = rows.len();
         let mut arrivals: Vec<Vec<u32>> = vec![vec![]; states];
@@ -71,7 +92,9 @@ impl<T: Clone + Num> Elimination<T> {
                 let row = &mut rows[i as usize];
                 let Ok(at) = row.binary_search_by_key(&(k as u32), |entry| entry.0) else { continue };
                 let factor = row.remove(at).1 / rate.clone();
-                budget = budget.checked_sub((row.len() + onward.len()) as u64)?;
+                let cost = (row.len() + onward.len() + 1) as u64 * factor.cost();
+                *budget = budget.saturating_sub(cost);
+                (*budget > 0).then_some(())?;
                 exits[i as usize] = exits[i as usize].clone() + factor.clone() * exits[k].clone();
                 add(row, &onward, i, &factor, |j| arrivals[j as usize].push(i));
                 into.push((i, factor));
@@ -108,7 +131,7 @@ impl<T: Clone + Num> Elimination<T> {
 }
 
 /// `row += factor · other`, without an entry for `own`; `new` is told where there was none before.
-fn add<T: Clone + Num>(
+fn add<T: Number>(
     row: &mut Vec<(u32, T)>,
     other: &[(u32, T)],
     own: u32,
@@ -145,14 +168,14 @@ mod tests {
         // Two states that change places and leave with 1e-15 each: 1e15 steps are expected.
         let rows = vec![vec![(1, 1.0 - 1e-15)], vec![(0, 1.0 - 1e-15)]];
         let process = Process { rows, exits: vec![1e-15, 1e-15] };
-        let steps = Elimination::new(process, 100).unwrap().solve(vec![1.0, 1.0]);
+        let steps = Elimination::new(process, &mut 100).unwrap().solve(vec![1.0, 1.0]);
         assert!(steps.iter().all(|x| (x / 1e15 - 1.0_f64).abs() < 1e-12), "{steps:?}");
     }
 
     #[test]
     fn a_closed_set_is_no_process_that_is_left() {
         let rows = vec![vec![(1, 1.0)], vec![(0, 1.0)], vec![(0, 0.5)]];
-        assert!(Elimination::new(Process { rows, exits: vec![0.0, 0.0, 0.5] }, 100).is_none());
+        assert!(Elimination::new(Process { rows, exits: vec![0.0, 0.0, 0.5] }, &mut 100).is_none());
     }
 
     proptest! {
@@ -165,7 +188,7 @@ mod tests {
             let rows = (0..5).map(|i| (0..5).map(|j| (j as u32, probability(i, j))).collect()).collect();
             let exits = (0..5).map(|i| ratio(weights[i][5] + 1, total(&weights[i]))).collect();
             let right: Vec<Rational> = (0..5).map(|i| ratio(i, 3)).collect();
-            let x = Elimination::new(Process { rows, exits }, 10_000).unwrap().solve(right.clone());
+            let x = Elimination::new(Process { rows, exits }, &mut 1_000_000).unwrap().solve(right.clone());
             for i in 0..5 {
                 let sum = (0..5).fold(right[i].clone(), |sum, j| sum + probability(i, j) * &x[j]);
                 prop_assert_eq!(&sum, &x[i]);

@@ -3,6 +3,7 @@
 use super::super::expectation::Bound;
 use super::super::query::Direction;
 use super::fixed::{ONE, SumOfProducts, floor};
+use super::ways_out::Leads;
 use crate::model::{End, Row};
 
 /// A row with bounds in fixed point: lower ones rounded down, upper ones up.
@@ -41,9 +42,9 @@ impl FixedRow {
     }
 
     /// A distribution, in units, that attains the optimum over values.
-    pub(super) fn respond(&self, values: &[u128], nature: Direction) -> Vec<u128> {
+    pub(super) fn respond<V: Ord>(&self, values: &[V], nature: Direction) -> Vec<u128> {
         let mut order: Vec<usize> = (0..self.targets.len()).collect();
-        order.sort_by_key(|&i| values[self.targets[i] as usize]);
+        order.sort_by(|&i, &j| values[self.targets[i] as usize].cmp(&values[self.targets[j] as usize]));
         if nature == Direction::Max {
             order.reverse();
         }
@@ -76,9 +77,14 @@ impl FixedRow {
             (Bound::Upper, Direction::Max) => sum.ceil().min(ONE),
         }
     }
+}
 
-    /// Whether every distribution (`Min`) or some (`Max`) gives the targets in a set positive mass.
-    pub(super) fn hits(&self, nature: Direction, inside: impl Fn(u32) -> bool) -> bool {
+impl Leads for FixedRow {
+    fn targets(&self) -> &[u32] {
+        &self.targets
+    }
+
+    fn hits(&self, nature: Direction, inside: impl Fn(u32) -> bool) -> bool {
         let entries = || self.targets.iter().zip(&self.lower).zip(&self.room);
         match nature {
             Direction::Min => {

@@ -10,7 +10,7 @@ use super::super::query::Direction;
 use super::elimination::{Elimination, Process};
 use super::fixed::ONE;
 use super::fixed_row::FixedRow;
-use std::collections::VecDeque;
+use super::ways_out::{WaysOut, ways_out};
 
 /// Advantages of so few units are no reason to change a strategy.
 const TOLERANCE: u128 = 16;
@@ -78,53 +78,11 @@ impl Game {
 
     /// A strategy by which the maximising sides lead out, whatever the minimising ones do.
     fn ways_out(&self) -> Option<Strategy> {
-        let nodes = self.nodes.len();
-        let mut users: Vec<Vec<u32>> = vec![vec![]; self.rows.len()];
-        let mut needed: Vec<usize> = vec![1; nodes];
-        for (i, node) in (0..).zip(&self.nodes) {
-            node.options.iter().for_each(|&row| users[row as usize].push(i));
-            if node.optimum == Direction::Min {
-                needed[i as usize] = node.options.len();
-            }
-        }
-        let mut predecessors: Vec<Vec<u32>> = vec![vec![]; nodes + self.outside.len()];
-        for (id, row) in (0..).zip(&self.rows) {
-            row.targets.iter().for_each(|&target| predecessors[target as usize].push(id));
-        }
-        // Who is found earlier is closer to where there is something to be had: maximising sides go there, minimising
-        // ones go the other way.
-        let mut closeness: Vec<u128> = vec![0; nodes + self.outside.len()];
-        let mut choices: Vec<u32> =
-            self.nodes.iter().map(|node| node.options.first().copied()).collect::<Option<_>>()?;
-        let mut done = vec![false; self.rows.len()];
-        let mut next = ONE;
-        let promising = (nodes..).zip(&self.outside).filter(|(_, value)| **value > 0);
-        let mut work: VecDeque<u32> = promising.map(|(i, _)| i as u32).collect();
-        work.iter().for_each(|&i| closeness[i as usize] = ONE);
-        while let Some(target) = work.pop_front() {
-            for &id in &predecessors[target as usize] {
-                let row = id as usize;
-                if done[row] || !self.rows[row].hits(self.nature, |t| closeness[t as usize] > 0) {
-                    continue;
-                }
-                done[row] = true;
-                for &node in &users[row] {
-                    let i = node as usize;
-                    if closeness[i] > 0 {
-                        continue;
-                    }
-                    needed[i] -= 1;
-                    if needed[i] == 0 {
-                        next -= 1;
-                        closeness[i] = next;
-                        choices[i] = if self.nodes[i].optimum == Direction::Max { id } else { choices[i] };
-                        work.push_back(node);
-                    }
-                }
-            }
-        }
+        let states: Vec<_> = self.nodes.iter().map(|node| (&*node.options, node.optimum)).collect();
+        let promising: Vec<bool> = self.outside.iter().map(|&value| value > 0).collect();
+        let WaysOut { choices, closeness } = ways_out(&states, &self.rows, &promising, self.nature)?;
         let masses = self.rows.iter().map(|row| row.respond(&closeness, self.nature)).collect();
-        closeness[..nodes].iter().all(|&c| c > 0).then_some(Strategy { choices, masses })
+        Some(Strategy { choices, masses })
     }
 
     /// The values under a strategy: `x = P x ± offset` within nodes, up to [`RESIDUAL`], but never less than 0.
@@ -133,7 +91,7 @@ impl Game {
         // Where the offsets eat up everything, 0 is a lower bound: such nodes count as outside.
         let mut lost = vec![false; nodes];
         for _ in 0..ROUNDS {
-            let equations = Elimination::new(self.process(strategy, &lost), self.budget)?;
+            let equations = Elimination::new(self.process(strategy, &lost), &mut self.budget.clone())?;
             let mut values = vec![0; nodes];
             values.extend(&self.outside);
             let before = lost.clone();

@@ -17,8 +17,11 @@ mod game;
 mod part;
 #[cfg(test)]
 mod tests;
+mod ways_out;
 
+pub(super) use elimination::{Elimination, Number, Process};
 pub(super) use fixed::to_rational;
+pub(super) use ways_out::{Leads, WaysOut, ways_out};
 
 use super::component::Component;
 use super::expectation::Bound;

@@ -64,9 +64,12 @@ impl RowTexts {
                 ActionNames::OfChoice { .. } => String::new(),
             };
             for (i, successor) in row.successors.iter().enumerate() {
-                let raised = |bound: f64, end| match bound == 0.0 {
-                    true => shortest_decimal(RAISED_LOWER_BOUND),
-                    false => row.text(end, i),
+                // Not above the upper bound, which may be smaller still.
+                let tiny = (0.0 < row.upper[i] && row.upper[i] < RAISED_LOWER_BOUND).then_some(End::Upper);
+                let raised = |bound: f64, end| match (bound == 0.0, tiny) {
+                    (true, Some(upper)) => row.text(upper, i),
+                    (true, None) => shortest_decimal(RAISED_LOWER_BOUND),
+                    (false, _) => row.text(end, i),
                 };
                 let (lower, upper) = (raised(row.lower[i], End::Lower), raised(row.upper[i], End::Upper));
                 let text = format!(" {successor} [{lower},{upper}]{tail}");

@@ -52,6 +52,10 @@ impl UmbWriter<'_> {
         if !aps.is_empty() {
             groups.insert(member::APS.to_owned(), Value::Object(aps));
         }
+        let rewards = self.reward_annotations();
+        if !rewards.is_empty() {
+            groups.insert(member::REWARDS.to_owned(), Value::Object(rewards));
+        }
         if !self.deadlocks.is_clear() {
             groups.insert(
                 member::OWN.to_owned(),
@@ -63,17 +67,21 @@ impl UmbWriter<'_> {
 
     /// Per label, an identifier of lower-case letters, digits, `_` and `-` that no other label has.
     pub(super) fn label_ids(&self) -> Vec<String> {
-        let mut taken = HashSet::new();
-        let mut unique = |name: &str| {
-            let fit =
-                |c: char| if c.is_ascii_alphanumeric() || c == '-' { c.to_ascii_lowercase() } else { '_' };
-            // The path of its values must fit into the header of a tar archive.
-            let mut id: String = name.chars().map(fit).take(40).collect();
-            while !taken.insert(id.clone()) {
-                id.push('_');
-            }
-            id
-        };
-        self.labels().map(|(name, _)| unique(name)).collect()
+        unique_ids(self.labels().map(|(name, _)| name))
     }
+}
+
+/// Per name, an identifier of lower-case letters, digits, `_` and `-` that no other has.
+pub(super) fn unique_ids<'n>(names: impl Iterator<Item = &'n str>) -> Vec<String> {
+    let mut taken = HashSet::new();
+    let unique = |name: &str| {
+        let fit = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c.to_ascii_lowercase() } else { '_' };
+        // The path of its values must fit into the header of a tar archive.
+        let mut id: String = name.chars().map(fit).take(40).collect();
+        while id.is_empty() || !taken.insert(id.clone()) {
+            id.push('_');
+        }
+        id
+    };
+    names.map(unique).collect()
 }

@@ -3,6 +3,7 @@
 mod actions;
 mod archive;
 mod index;
+mod rewards;
 mod valuations;
 
 use super::member;
@@ -173,6 +174,7 @@ impl<'a> UmbWriter<'a> {
             let name = member::state_annotation(member::OWN, member::WITHOUT_CHOICES);
             self.bitset(tar, &name, &self.deadlocks)?;
         }
+        self.rewards(tar)?;
         self.valuations(tar)
     }
 
@@ -234,13 +236,14 @@ fn raised_lower_bound(model: &IntervalMdp) -> Option<f64> {
     if !model.rows().any(|row| row.lower.contains(&0.0)) {
         return None;
     }
-    let mut taken = HashSet::new();
+    // Not above any upper bound, which may be smaller still.
+    let (mut taken, mut raised) = (HashSet::new(), RAISED_LOWER_BOUND);
     model.rows().for_each(|_, row| {
         let bounds = row.lower.iter().chain(row.upper);
         taken.extend(bounds.filter(|&&bound| bound <= RAISED_LOWER_BOUND).map(|bound| bound.to_bits()));
+        raised = row.upper.iter().copied().filter(|&upper| upper > 0.0).fold(raised, f64::min);
     });
-    let mut raised = RAISED_LOWER_BOUND;
-    while taken.contains(&raised.to_bits()) {
+    while taken.contains(&raised.to_bits()) && raised.next_down() > 0.0 {
         raised = raised.next_down();
     }
     Some(raised)
