@@ -2,18 +2,19 @@
  *
 {{ promise }}
  *
- * {{ function }}(x, k, u)
+ * {{ function }}(x, k, {% if let Some(m) = memory %}memory, {% endif %}u)
  *
- * looks at the state x after k steps. If it returns APPLY, u holds the input of the next step. Any other status is
+ * looks at the state x after k steps.{% if let Some(m) = memory %} A run begins with *memory = {{ upper }}_START; what has been done so far
+ * is remembered there, so every state of the run is looked at once, in order.{% endif %} If it returns APPLY, u holds the input of the next step. Any other status is
  * final and leaves u as it was:
  *
- *   REACHED    the goal is reached: the task is done
- *   UNSAFE     the cell of x is not safe: the task has failed
+ *   REACHED    {% if memory.is_some() %}the task is done{% else %}the goal is reached: the task is done{% endif %}
+ *   UNSAFE     {% if memory.is_some() %}the task has failed{% else %}the cell of x is not safe: the task has failed{% endif %}
  *   OUTSIDE    x is outside the partition, or not a number: the task has failed
  *   NO_ACTION  nothing can be done from the cell of x
  *   OVER       the horizon has passed; a horizon of 0 is unlimited, then k is ignored
  *
- * No allocation, no state: every table is constant, and so is the memory used. Compile as C99 without contraction
+ * No allocation, no {% if memory.is_some() %}other {% endif %}state: every table is constant, and so is the memory used. Compile as C99 without contraction
  * of products and sums, and the results are those of dynabs bit by bit:
  *
  *   cc -std=c99 -O2 -ffp-contract=off -c {{ file }}      (link with -lm)
@@ -28,7 +29,8 @@
 #define {{ upper }}_STATES {{ states }}
 #define {{ upper }}_INPUTS {{ inputs }}
 #define {{ upper }}_HORIZON {{ horizon }}u
-
+{% if let Some(m) = memory %}#define {{ upper }}_START {{ m.memories }}
+{% endif %}
 enum {{ prefix }}_status {
     {{ upper }}_APPLY = 0,
     {{ upper }}_REACHED = 1,
@@ -39,7 +41,7 @@ enum {{ prefix }}_status {
 };
 
 enum {{ prefix }}_status {{ function }}(
-    const double x[{{ upper }}_STATES], uint32_t k, double u[{{ array_inputs }}]);
+    const double x[{{ upper }}_STATES], uint32_t k,{% if memory.is_some() %} uint32_t *memory,{% endif %} double u[{{ array_inputs }}]);
 
 /* The period of every coordinate, 0 where it is not periodic. */
 static const double period[{{ upper }}_STATES] = {
@@ -65,14 +67,56 @@ static const uint32_t stride[{{ upper }}_STATES] = {
 {{ stride }}
 };
 
-/* What a cell is: 0 neither, 1 goal, 2 unsafe. */
+{% if let Some(m) = memory %}/* The class of every cell. The state in a cell of class i is in the regions of certain[i], and perhaps in others of
+ * possible[i]: a bit each. */
+static const uint32_t class_of[{{ num_cells }}] = {
+{{ m.class_of }}
+};
+
+static const uint32_t certain[{{ m.classes }}] = {
+{{ m.certain }}
+};
+
+static const uint32_t possible[{{ m.classes }}] = {
+{{ m.possible }}
+};
+
+/* What a memory becomes with the regions that a state is in, row by row; the last row is for the first state of a run.
+ * {{ m.done }} is done, {{ m.failed }} failed. */
+static const uint32_t next_memory[({{ m.memories }} + 1) * {{ m.letters }}] = {
+{{ m.next }}
+};
+
+/* Region r has the shapes from first_shape[r] on, shape s the half-spaces from first_half_space[s] on: normal * x < offset
+ * if it is strict, else <=. */
+static const uint32_t first_shape[{{ m.regions }} + 1] = {
+{{ m.first_shape }}
+};
+
+static const uint32_t first_half_space[{{ m.shapes }} + 1] = {
+{{ m.first_half_space }}
+};
+
+static const double normal[{{ m.half_spaces }}][{{ upper }}_STATES] = {
+{{ m.normal }}
+};
+
+static const double offset[{{ m.half_spaces }}] = {
+{{ m.offset }}
+};
+
+static const uint8_t strict[{{ m.half_spaces }}] = {
+{{ m.strict }}
+};
+
+{% else %}/* What a cell is: 0 neither, 1 goal, 2 unsafe. */
 static const uint8_t kind[{{ num_cells }}] = {
 {{ kind }}
 };
 
-/* Cell i has the entries first_entry[i] to first_entry[i + 1] - 1. Each of them applies its input from steps_left
+{% endif %}/* {% if let Some(m) = memory %}Memory m in cell i is number m * {{ num_cells }} + i. Number{% else %}Cell{% endif %} i has the entries first_entry[i] to first_entry[i + 1] - 1. Each of them applies its input from steps_left
  * steps before the horizon on, or earlier, until the next entry takes over. */
-static const uint32_t first_entry[{{ num_cells }} + 1] = {
+static const uint32_t first_entry[{{ num_starts }} + 1] = {
 {{ first_entry }}
 };
 
@@ -108,8 +152,29 @@ static uint32_t faces_passed(const double *face, uint32_t count, double x)
     return low;
 }
 
-enum {{ prefix }}_status {{ function }}(
-    const double x[{{ upper }}_STATES], uint32_t k, double u[{{ array_inputs }}])
+{% if let Some(m) = memory %}/* Whether a state is in a region. */
+static int contains(uint32_t region, const double *y)
+{
+    uint32_t s, h, j;
+    for (s = first_shape[region]; s < first_shape[region + 1]; ++s) {
+        int inside = 1;
+        for (h = first_half_space[s]; inside && h < first_half_space[s + 1]; ++h) {
+            double sum = 0;
+            for (j = 0; j < {{ upper }}_STATES; ++j) {
+                const double product = normal[h][j] * y[j];
+                sum += product;
+            }
+            inside = strict[h] ? sum < offset[h] : sum <= offset[h];
+        }
+        if (inside) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+{% endif %}enum {{ prefix }}_status {{ function }}(
+    const double x[{{ upper }}_STATES], uint32_t k,{% if memory.is_some() %} uint32_t *memory,{% endif %} double u[{{ array_inputs }}])
 {
     double y[{{ upper }}_STATES], c[{{ upper }}_STATES];
     uint32_t cell = 0, left, entry, i, j;
@@ -128,18 +193,37 @@ enum {{ prefix }}_status {{ function }}(
         }
         passed = faces_passed(face, count, y[j]);
         if (passed == 0 || passed == count) {
-            return {{ upper }}_OUTSIDE;
+{% if let Some(m) = memory %}            *memory = {{ m.failed }};
+{% endif %}            return {{ upper }}_OUTSIDE;
         }
         c[j] = centers[first_face[j] - j + passed - 1];
         cell += (passed - 1) * stride[j];
     }
-    if (kind[cell] == 1) {
+{% if let Some(m) = memory %}    if (*memory <= {{ m.memories }}) {
+        const uint32_t class = class_of[cell];
+        uint32_t letter = certain[class];
+        for (i = 0; i < {{ m.regions }}; ++i) {
+            const uint32_t bit = (uint32_t)1 << i;
+            if ((possible[class] & ~certain[class] & bit) != 0 && contains(i, y)) {
+                letter |= bit;
+            }
+        }
+        *memory = next_memory[*memory * {{ m.letters }} + letter];
+    }
+    if (*memory == {{ m.done }}) {
+        return {{ upper }}_REACHED;
+    }
+    if (*memory >= {{ m.memories }}) {
+        return {{ upper }}_UNSAFE;
+    }
+    cell += *memory * {{ num_cells }};
+{% else %}    if (kind[cell] == 1) {
         return {{ upper }}_REACHED;
     }
     if (kind[cell] == 2) {
         return {{ upper }}_UNSAFE;
     }
-#if {{ upper }}_HORIZON > 0
+{% endif %}#if {{ upper }}_HORIZON > 0
     if (k >= {{ upper }}_HORIZON) {
         return {{ upper }}_OVER;
     }

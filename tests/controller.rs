@@ -1,4 +1,5 @@
 //! The controller: the policy's, in U, at its targets, and the same in every form it is written in.
+use crate::common::c_compiler;
 use crate::common::controllers::Loop;
 use crate::common::shipped_models;
 use dynabs::controller::export::{c_source, write_csv, write_json};
@@ -10,7 +11,7 @@ use rand_chacha::ChaCha12Rng;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 const UNBOUNDED: &str = r#"/task/horizon="infinite""#;
 
@@ -208,21 +209,6 @@ int main(void)
     return 0;
 }
 "#;
-
-/// The system's C compiler; without one the test can only say so (but not where CI runs).
-fn c_compiler() -> Option<&'static str> {
-    let works = |name: &&str| {
-        Command::new(name)
-            .arg("--version")
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .status()
-            .is_ok_and(|s| s.success())
-    };
-    let found = ["cc", "gcc", "clang"].into_iter().find(works);
-    assert!(found.is_some() || std::env::var_os("CI").is_none(), "CI has no C compiler");
-    found
-}
 
 fn compare_with_c(compiler: &str, closed: &Loop, seed: u64) {
     let controller = &closed.controller;

@@ -3,7 +3,7 @@
 use crate::common::{abstraction, root};
 use assert_cmd::Command;
 use dynabs::guarantee::{Coverage, Event, Evidence, Gap, Guarantee, Safety, SampleEvidence};
-use dynabs::landing::Aim;
+use dynabs::task::Aim;
 use imdp::model::{
     ActionNames, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowId, RowRange, Rows, StateId,
     StateSet, StateVariables, VariableValues,
@@ -173,6 +173,7 @@ fn guarantee() -> Guarantee {
     let samples = SampleEvidence { number: 100, beta: 0.01, sweep: 1, budget: vec![], unseen_mass: 0.1 };
     Guarantee {
         event: Event {
+            task: None,
             aim: Aim::Reach,
             horizon: None,
             group_steps: 1,

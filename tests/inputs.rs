@@ -1,7 +1,7 @@
 //! Actions that are inputs, from the model file to the closed loop.
 
 use dynabs::abstraction::inputs::InputAbstraction;
-use dynabs::controller::{Decision, InputController, InputSimulation, ParameterChoice};
+use dynabs::controller::{Decision, InputController, InputSimulation, ParameterChoice, RunMemory};
 use dynabs::guarantee::Safety;
 use dynabs::model_file::{Document, StatedProblem};
 use dynabs::problem::InputProblem;
@@ -102,14 +102,13 @@ fn inputs_come_from_the_law() {
     let solution = abstraction.question().solve(&SolverOptions::default());
     let controller = InputController::new(&problem, &abstraction, &solution);
     let mut u = [0.0; 2];
-    let Decision::Apply { input } = controller.control(&[3.0, -2.0], 0, &mut u) else {
-        panic!("nothing to do")
-    };
+    let first = |x: &[f64], k, u: &mut [f64]| controller.control(x, k, &mut RunMemory::default(), u);
+    let Decision::Apply { input } = first(&[3.0, -2.0], 0, &mut u) else { panic!("nothing to do") };
     assert_eq!(u, controller.nominal(input));
-    assert_eq!(controller.control(&[5.0, -2.0], 0, &mut u), Decision::Reached);
-    assert_eq!(controller.control(&[5.0, 2.0], 0, &mut u), Decision::Unsafe);
-    assert_eq!(controller.control(&[f64::NAN, 2.0], 0, &mut u), Decision::Outside);
-    assert_eq!(controller.control(&[3.0, -2.0], 10, &mut u), Decision::Over);
+    assert_eq!(first(&[5.0, -2.0], 0, &mut u), Decision::Reached);
+    assert_eq!(first(&[5.0, 2.0], 0, &mut u), Decision::Unsafe);
+    assert_eq!(first(&[f64::NAN, 2.0], 0, &mut u), Decision::Outside);
+    assert_eq!(first(&[3.0, -2.0], 10, &mut u), Decision::Over);
 }
 
 #[test]

@@ -71,6 +71,21 @@ fn a_dry_run_shows_what_it_takes() {
     assert!(json["memory"]["available"].as_u64().unwrap() < 2_000_000 << 10);
 }
 
+/// Without any limit but the machine's, a typo is refused before anything is done for every cell.
+#[test]
+fn a_typo_is_refused_at_once() {
+    let scratch = TempDir::new().unwrap();
+    let arguments =
+        [&*model("spacecraft_disaligned"), "--dry-run", "--set", "/partition/cells=[140,60,140,60]"];
+    let start = std::time::Instant::now();
+    // More than the cells take, less than the enabled actions.
+    let output = limited(20_000_000, scratch.path(), "dynabs-compile", &arguments);
+    let error = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{error}");
+    assert!(error.contains("/partition/cells: found the enabled actions"), "{error}");
+    println!("refused after {:.1?}", start.elapsed());
+}
+
 /// Whatever the limit, every command does its work or says what stopped it, and leaves nothing half done.
 #[test]
 fn no_command_aborts() {
@@ -111,6 +126,10 @@ fn no_command_aborts() {
         (check, own(&["report", "base", "-o", "out", "--runs", "100"]), "out"),
         (check, own(&["simulate", "base", "--runs", "100"]), "out"),
         (check, own(&["controller", "base", "-o", "out.c"]), "out.c"),
+        (check, own(&["convert", "base/model.umb", "out.drn"]), "out.drn"),
+        (check, own(&["simulate", "base", "--runs", "20", "--trajectories", "out"]), "out"),
+        (check, own(&["diff", "base", "--write-reference", "out"]), "out"),
+        (check, own(&["solve", "base", "-p", "(Pmaxmin=? [ F<=2 \"reached\" ])>=1"]), "out"),
         (check, own(&["diff", "base", "base"]), "out"),
     ];
     let mut ended = 0;
@@ -118,8 +137,13 @@ fn no_command_aborts() {
     let starts =
         |kib: &u32| [tool, check].iter().all(|tool| run(*kib, tool, &own(&["--version"])).status.success());
     let least = (10_000..200_000).step_by(2000).find(starts).unwrap();
-    for kib in [1000, 4000, 9000, 20_000, 70_000].map(|more| least + more) {
-        for (tool, arguments, written) in &commands {
+    // Twenty limits from hardly anything to enough: every command under five of them, and every fourth under each other.
+    for step in 0..20 {
+        let kib = least + (600.0 * 1.3f64.powi(step)) as u32;
+        for (at, (tool, arguments, written)) in (0..).zip(&commands) {
+            if step % 5 != 2 && (at + step) % 4 != 0 {
+                continue;
+            }
             let output = run(kib, tool, arguments);
             let error = String::from_utf8_lossy(&output.stderr).into_owned();
             let code = output.status.code();

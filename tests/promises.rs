@@ -60,6 +60,20 @@ fn a_wall_between_grouped_steps_cannot_be_crossed() {
 }
 
 #[test]
+fn the_spacecraft_keeps_clear_of_the_obstacle_at_every_step() {
+    let closed = Loop::new(document("spacecraft_disaligned_every_step", &[]).problem().unwrap());
+    assert_eq!(closed.problem.safety(), Safety::EveryStep);
+    assert!(closed.answer.lower > 0.57, "{}", closed.answer.lower);
+    let start = closed.problem.initial_state().unwrap();
+    let noise = Noise::of(closed.problem.noise());
+    let tally = Simulation::new(&closed.problem, &closed.controller, noise, 0).tally(start, 1, 4000, &());
+    assert!(!tally.satisfaction(Safety::EveryStep, 0.01).contradicts(closed.answer.lower), "{tally:?}");
+    // Without rows for actions that need room nothing is promised there.
+    let rows = closed.abstraction.targets.len();
+    assert!(rows > closed.problem.grid().num_cells() as usize, "{rows}");
+}
+
+#[test]
 fn the_old_statement_is_on_request_and_every_run_shows_what_it_lacks() {
     let closed = Loop::new(problem("between", &["/task/check=grouped"]));
     assert!(closed.problem.safety() == Safety::GroupedInstants && closed.answer.lower > 0.99);

@@ -4,8 +4,8 @@ use super::simulation_noise::ChosenNoise;
 use super::{CliError, thousands, warn};
 use dynabs::controller::{Controller, Frequency, InputController, Tally};
 use dynabs::guarantee::{Guarantee, Safety, lower_bound_text};
-use dynabs::landing::Aim;
 use dynabs::run::{InputRun, Run};
+use dynabs::task::Aim;
 use imdp::numeric::{Rational, from_decimal, shortest_decimal, to_f64};
 use num_traits::One;
 use serde::Serialize;
@@ -83,9 +83,10 @@ impl Report {
             name: name.to_owned(),
             mode: guarantee.mode(),
             from,
-            region: match guarantee.event.aim {
-                Aim::Reach => "goal",
-                Aim::Stay => "safe",
+            region: match (&guarantee.event.task, guarantee.event.aim) {
+                (Some(_), _) => "by the whole run",
+                (None, Aim::Reach) => "in the goal region",
+                (None, Aim::Stay | Aim::End) => "in the safe region",
             },
             noise,
             seed,
@@ -134,7 +135,7 @@ impl Report {
             (_, Safety::EveryStep) => ", safe at every step",
             (_, Safety::GroupedInstants) => ", safe at grouped instants",
         };
-        line("satisfied", format!("{} in the {} region{when}", frequency(&self.satisfied), self.region));
+        line("satisfied", format!("{} {}{when}", frequency(&self.satisfied), self.region));
         line("reached", format!("{} in goal cells{when}", frequency(&self.reached)));
         if self.group_steps > 1 && self.safety == Safety::GroupedInstants {
             let every = frequency(&self.satisfied_at_every_step);

@@ -76,6 +76,7 @@ pub mod report;
 pub mod run;
 pub mod statistics;
 pub mod system;
+pub mod task;
 mod warning;
 
 pub use diagnostic::Diagnostic;

@@ -10,8 +10,8 @@ use std::fmt;
 pub enum Warning {
     /// A face of a region is next to a face of the grid.
     NearMiss {
-        /// `goal` or `unsafe`.
-        list: &'static str,
+        /// The place of the list of regions in the model file.
+        list: String,
         /// Which face.
         miss: NearMiss,
     },
@@ -86,7 +86,7 @@ impl fmt::Display for Warning {
         match self {
             Self::NearMiss { list, miss } => write!(
                 f,
-                "/task/{list}/{}: the face at {} in dimension {} is {:.1e} cell widths from the grid face {} but not on \
+                "{list}/{}: the face at {} in dimension {} is {:.1e} cell widths from the grid face {} but not on \
                  it; if they are meant to coincide, write the same number",
                 miss.region,
                 shortest_decimal(miss.face),

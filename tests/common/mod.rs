@@ -12,6 +12,7 @@ use dynabs::problem::Problem;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 
 /// The root of the repository.
 pub fn root() -> PathBuf {
@@ -81,4 +82,19 @@ pub fn table_one_row(row: &Value) -> (&'static str, Vec<String>) {
             ("double_integrator_two_layer", sets)
         }
     }
+}
+
+/// The system's C compiler; without one the test can only say so (but not where CI runs).
+pub fn c_compiler() -> Option<&'static str> {
+    let works = |name: &&str| {
+        Command::new(name)
+            .arg("--version")
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .status()
+            .is_ok_and(|s| s.success())
+    };
+    let found = ["cc", "gcc", "clang"].into_iter().find(works);
+    assert!(found.is_some() || std::env::var_os("CI").is_none(), "CI has no C compiler");
+    found
 }

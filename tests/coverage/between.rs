@@ -17,7 +17,7 @@ use dynabs::problem::{
     Gain, GivenSamples, InputSet, LinearDynamics, LowerLayer, Partition, Probabilities, Problem, RegionBox,
     SampleKind, Task,
 };
-use imdp::model::{Row, RowBuffer, StateId};
+use imdp::model::{Row, RowBuffer, RowId, StateId};
 use imdp::solver::{Answer, SolverOptions};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha12Rng;
@@ -186,8 +186,11 @@ impl Experiment {
         problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary).any(|(cell, _)| {
             let state = enabling.state_of_cell[cell.index()];
             enabling.model.choices().rows(state).any(|row| {
-                let mut truths = self.truths(cell, row.index());
+                let target = target_cell(enabling, row);
+                let mut truths = self.truths(cell, target);
+                let has_row = row.index() < row_of.targets.len();
                 let buffer = &mut RowBuffer::default();
+                let row = if has_row { row } else { RowId::from_index(target) };
                 let row = row_of.model.rows().row(row, buffer);
                 truths.any(|truth| excludes(problem, row_of, &row, truth))
             })
@@ -204,7 +207,7 @@ impl Experiment {
             let of_cell = |cell: usize| {
                 let state = abstraction.state_of_cell[cell];
                 let row = policy.row(abstraction.model.choices(), state, elapsed)?;
-                let truths = self.truths(CellId(cell as u32), row.index());
+                let truths = self.truths(CellId(cell as u32), target_cell(abstraction, row));
                 let worth = |truth: &Vec<f64>| truth.iter().zip(&values).map(|(p, v)| p * v).sum::<f64>();
                 Some(truths.map(worth).fold(f64::INFINITY, f64::min))
             };
@@ -241,6 +244,7 @@ impl Experiment {
     pub fn best_value(&self, layers: Layers, beta: f64, seed: u64) -> f64 {
         let problem = problem(layers, self.law.sample(2 * GROUPS, seed), Safety::EveryStep, beta);
         let abstraction = compile(&problem, &()).unwrap();
+        assert!(abstraction.targets.len() > grid_cells(), "rows with room in between take part");
         let answer =
             Answer::new(&abstraction.model, &abstraction.property, &SolverOptions::default()).unwrap();
         let ordinary = problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
@@ -250,9 +254,20 @@ impl Experiment {
     }
 }
 
+fn grid_cells() -> usize {
+    (CELLS[0] * CELLS[1]) as usize
+}
+
+/// The cell that the action of a row steers to the center of.
+fn target_cell(abstraction: &Abstraction, row: RowId) -> usize {
+    let mut cell = [0; 2];
+    abstraction.targets.cell(row.index(), &mut cell);
+    (cell[0] * CELLS[1] as i32 + cell[1]) as usize
+}
+
 /// The probability of every cell if the first atom is one of those with these offsets, from this target.
 fn truth(offsets: &[BTreeMap<[i64; 2], f64>], target: [u32; 2]) -> Vec<f64> {
-    let mut cells = vec![0.0; (CELLS[0] * CELLS[1]) as usize];
+    let mut cells = vec![0.0; grid_cells()];
     for (offset, p) in offsets.iter().flatten() {
         let place = [0, 1].map(|j| i64::from(target[j]) + offset[j]);
         if (0..2).all(|j| (0..i64::from(CELLS[j])).contains(&place[j])) {

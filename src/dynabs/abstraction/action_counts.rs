@@ -1,6 +1,7 @@
 //! The landings of all actions: one shared by translation, or one per target.
 
-use super::cell_counts::{CellBox, CellCounts, Count};
+use super::cell_box::CellBox;
+use super::cell_counts::{CellCounts, Count};
 use super::placement::Placement;
 use super::targets::{Alignment, Targets};
 use super::windows::Windows;
@@ -141,6 +142,13 @@ impl<'a> ActionCounts<'a> {
                 (Cow::Owned(landing), Cow::Owned(windows))
             }
         }
+    }
+
+    /// Where the samples land for all actions, if coordinates count from their targets; `depths` says of every sample how many
+    /// windows it is inside of.
+    pub(super) fn with_depths(&self, depths: &[u8]) -> Option<CellCounts> {
+        let placement = self.placements.shared()?;
+        Some(CellCounts::new(self.samples, placement, self.shared_windows.first(), Some(depths)))
     }
 
     /// The landing of all actions, if coordinates count from their targets.

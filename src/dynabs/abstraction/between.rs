@@ -2,6 +2,7 @@
 
 use super::enabled::EnabledActions;
 use super::hazards::Hazards;
+use super::room::{MOST_DIMENSIONS, RUNGS, Room};
 use super::steering::Steering;
 use super::windows::Windows;
 use crate::partition::{CellId, Grid};
@@ -32,6 +33,17 @@ struct Step {
     /// From `T d + S c + r` to the lower and to the upper corner, for a cell with center `c`.
     lower: Vec<f64>,
     upper: Vec<f64>,
+    /// The same for noise within each of the rungs.
+    rungs: Vec<(Vec<f64>, Vec<f64>)>,
+}
+
+/// What keeps clear of everything unsafe.
+#[derive(Default)]
+pub(super) struct Clear {
+    /// With any noise of the largest window.
+    pub(super) actions: EnabledActions,
+    /// With noise that stays in a room: number of the cell, target and room, ascending by cell and target.
+    pub(super) with_room: Vec<(u32, RowId, Room)>,
 }
 
 impl<'a> Between<'a> {
@@ -52,13 +64,14 @@ impl<'a> Between<'a> {
         }
     }
 
-    /// The actions, out of those `enabled` in each of `cells`, that keep clear of everything unsafe.
+    /// The actions, out of those `enabled` in each of `cells`, that keep clear of everything unsafe; where all targets sit
+    /// alike in their cells, also those that do so if there is room for the noise.
     pub(super) fn filter(
         &self,
         cells: &[CellId],
         enabled: &EnabledActions,
         progress: &dyn Progress,
-    ) -> EnabledActions {
+    ) -> Clear {
         let starts: Vec<usize> = (enabled.ranges_per_cell.iter())
             .scan(0, |end, &count| {
                 let start = *end;
@@ -67,23 +80,25 @@ impl<'a> Between<'a> {
             })
             .collect();
         let of_cell = |i: usize| &enabled.ranges[starts[i]..starts[i] + enabled.ranges_per_cell[i] as usize];
-        let parts: Vec<EnabledActions> = cells
+        let parts: Vec<Clear> = cells
             .par_chunks(CELLS_PER_TASK)
             .enumerate()
             .map(|(task, chunk)| {
-                let mut found = EnabledActions::default();
+                let mut found = Clear::default();
                 let mut probe = Probe::new(self);
                 for (i, &cell) in (task * CELLS_PER_TASK..).zip(chunk) {
-                    let before = found.ranges.len();
+                    let before = found.actions.ranges.len();
                     probe.start_in(cell);
-                    of_cell(i).iter().for_each(|range| probe.push_clear(range, &mut found.ranges));
-                    found.ranges_per_cell.push((found.ranges.len() - before) as u32);
+                    of_cell(i).iter().for_each(|range| probe.push_clear(i as u32, range, &mut found));
+                    found.actions.ranges_per_cell.push((found.actions.ranges.len() - before) as u32);
                 }
                 progress.advance(chunk.len() as u64);
                 found
             })
             .collect();
-        EnabledActions::concatenated(parts)
+        let (actions, with_room): (Vec<_>, Vec<_>) =
+            parts.into_iter().map(|part| (part.actions, part.with_room)).unzip();
+        Clear { actions: EnabledActions::concatenated(actions), with_room: with_room.concat() }
     }
 }
 
@@ -103,15 +118,21 @@ impl Step {
         }
         let half_widths: Vec<f64> =
             problem.grid().axes().iter().map(|axis| 0.5 * to_f64_up(axis.width())).collect();
-        let (noise_lower, noise_upper) = windows.between(0, i - 1);
         let reach = |j: usize, noise: f64| {
             let cell: f64 = (0..n).map(|k| image.state[(j, k)].abs() * half_widths[k]).sum();
             let rounding = 4.0 * (n as f64 + 4.0) * UNIT_ROUNDOFF * (cell + noise.abs());
             cell + image.error[j] + rounding
         };
+        let with_noise = |(lower, upper): (Vec<f64>, Vec<f64>)| -> (Vec<f64>, Vec<f64>) {
+            (0..n).map(|j| (lower[j] - reach(j, lower[j]), upper[j] + reach(j, upper[j]))).unzip()
+        };
+        let (lower, upper) = with_noise(windows.between(0, i - 1));
+        let has_rooms = windows.are_shared() && n <= MOST_DIMENSIONS;
+        let rungs = if has_rooms { 0..RUNGS.len() } else { 0..0 };
         Self {
-            lower: (0..n).map(|j| noise_lower[j] - reach(j, noise_lower[j])).collect(),
-            upper: (0..n).map(|j| noise_upper[j] + reach(j, noise_upper[j])).collect(),
+            lower,
+            upper,
+            rungs: rungs.map(|rung| with_noise(windows.rung(rung, i - 1))).collect(),
             state: image.state,
             by_target,
         }
@@ -151,14 +172,16 @@ impl<'a> Probe<'a> {
         }
     }
 
-    /// Adds the parts of a range whose actions are clear.
-    fn push_clear(&mut self, range: &RowRange, ranges: &mut Vec<RowRange>) {
+    /// Adds the parts of a range whose actions are clear, with any noise or with room for it.
+    fn push_clear(&mut self, cell: u32, range: &RowRange, found: &mut Clear) {
+        let ranges = &mut found.actions.ranges;
         let mut open: Option<RowRange> = None;
         for target in range.rows() {
             if self.is_clear(target) {
                 open = Some(RowRange { first: open.map_or(target, |run| run.first), last: target });
             } else {
                 ranges.extend(open.take());
+                found.with_room.extend(self.room(target).map(|room| (cell, target, room)));
             }
         }
         ranges.extend(open);
@@ -178,5 +201,21 @@ impl<'a> Probe<'a> {
             }
         }
         true
+    }
+
+    /// The room in which an action keeps clear of everything unsafe.
+    fn room(&self, target: RowId) -> Option<Room> {
+        let n = self.center.len();
+        let steps = self.between.steps.iter().zip(&self.by_cell);
+        steps.into_iter().try_fold(Room::default(), |room, (step, by_cell)| {
+            let by_target = &step.by_target[target.index() * n..(target.index() + 1) * n];
+            let face = |side: usize, rung: usize| {
+                let (lower, upper) = step.rungs.get(rung)?;
+                let noise = if side.is_multiple_of(2) { lower } else { upper };
+                Some(by_target[side / 2] + by_cell[side / 2] + noise[side / 2])
+            };
+            // No number is clear of anything.
+            self.between.hazards.room(room, |side, rung| face(side, rung).unwrap_or(f64::NAN))
+        })
     }
 }

@@ -80,7 +80,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
     clock.lap("enabled actions");
 
     let states = state_space(problem);
-    let targets = &steering.targets;
+    let targets = &enabling.targets;
     let choices = choices(problem, &states, &enabling.actions);
     let blocked = states.select(|state| is_blocked(problem, &states, &choices, state));
     clock.lap("choices");
@@ -108,7 +108,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
         }
         Intervals::Pac(prepared) => {
             let outcomes = Outcomes::new(problem.labels(), |cell| enabling.is_idle(cell));
-            let pac = PacRows::new(problem, *prepared, targets, placements, &states, &outcomes)?;
+            let pac = PacRows::new(problem, *prepared, &enabling, placements, &states, &outcomes)?;
             let rows = pac.rows(Preference::LeastFailing, "rows", progress);
             clock.lap("rows");
             let values = scout(&model_of(rows)?, &property)?;
@@ -125,7 +125,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
         model,
         property,
         state_of_cell: state_of_cell(grid, &states),
-        targets: steering.targets,
+        targets: enabling.targets,
         law: steering.law,
         guarantee: Guarantee { event: Event::of(problem), evidence },
         footprint,
@@ -159,12 +159,12 @@ impl Abstraction {
         let steering = Steering::new(problem)?;
         let footprint = Footprint::new(problem, &steering);
         footprint.check()?;
-        let enabled = Base::new(problem, &steering, progress)?.enabling.actions;
+        let enabling = Base::new(problem, &steering, progress)?.enabling;
         let states = state_space(problem);
         let same = guarantee.event == Event::of(problem)
             && model.num_states() == states.len()
-            && model.rows().len() == steering.targets.len()
-            && *model.choices() == choices(problem, &states, &enabled);
+            && model.rows().len() == enabling.targets.len()
+            && *model.choices() == choices(problem, &states, &enabling.actions);
         if !same {
             return Err(AbstractionError::Foreign);
         }
@@ -175,7 +175,7 @@ impl Abstraction {
             state_of_cell: state_of_cell(problem.grid(), &states),
             warnings: warnings(problem, blocked.count_ones(..)),
             model,
-            targets: steering.targets,
+            targets: enabling.targets,
             law: steering.law,
             guarantee,
             footprint,

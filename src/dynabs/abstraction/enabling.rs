@@ -4,7 +4,9 @@ use super::AbstractionError;
 use super::between::Between;
 use super::enabled::EnabledActions;
 use super::hazards::Hazards;
+use super::rooms::Rooms;
 use super::steering::Steering;
+use super::targets::Targets;
 use super::windows::Windows;
 use crate::partition::{CellId, CellKind};
 use crate::problem::Problem;
@@ -14,13 +16,17 @@ use imdp::progress::Progress;
 pub(super) struct Enabling {
     /// In the order of the cells.
     pub(super) actions: EnabledActions,
+    /// What the actions steer to.
+    pub(super) targets: Targets,
+    /// The rooms that some of them need.
+    pub(super) rooms: Rooms,
     /// Per cell of the partition, whether it is ordinary and the law has no action there: known before any sample.
     idle: Vec<bool>,
 }
 
 impl Enabling {
     /// What the law allows; and, where hazards have to be avoided at every step, what keeps clear of them with noise of
-    /// the largest window.
+    /// the largest window, or with room for it.
     pub(super) fn new(
         problem: &Problem,
         steering: &Steering,
@@ -41,16 +47,18 @@ impl Enabling {
         for (cell, &count) in ordinary.iter().zip(&actions.ranges_per_cell) {
             idle[cell.index()] = count == 0;
         }
+        let (mut targets, mut rooms) = (steering.targets.clone(), Rooms::default());
         if let Some((hazards, windows)) = hazards {
             progress.start("steps in between", ordinary.len() as u64);
             let between = Between::new(problem, hazards, steering, windows);
-            actions = between.filter(&ordinary, &actions, progress);
+            let clear = between.filter(&ordinary, &actions, progress);
+            (rooms, targets, actions) = Rooms::new(clear, &targets);
             progress.finish();
             if is_empty(&actions) {
                 return Err(AbstractionError::NothingClear { group_steps: problem.group_steps() });
             }
         }
-        Ok(Self { actions, idle })
+        Ok(Self { actions, targets, rooms, idle })
     }
 
     /// Whether the law has no action in an ordinary cell: whatever the samples.

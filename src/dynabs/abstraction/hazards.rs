@@ -1,5 +1,6 @@
 //! What must be avoided at every step.
 
+use super::room::{RUNGS, Room};
 use crate::guarantee::Safety;
 use crate::partition::Region;
 use crate::problem::{Probabilities, Problem};
@@ -58,6 +59,36 @@ impl Hazards {
         let is_safe = (self.boxes.iter()).all(|sides| sides.iter().zip(corners()).any(is_clear))
             && self.partition.iter().all(|sides| sides.iter().zip(corners()).all(is_within));
         !is_safe
+    }
+
+    /// The room, within another, in which nothing unsafe is met; none if there is none.
+    ///
+    /// `face` says of a side and a rung how far the state is on that side if the noise stays within the rung. Every unsafe
+    /// region is kept clear of on the side on which most noise may be.
+    pub(super) fn room(&self, within: Room, face: impl Fn(usize, usize) -> f64) -> Option<Room> {
+        let mut room = within;
+        let farthest = |side: usize, is_clear: &dyn Fn(f64) -> bool| {
+            (0..RUNGS.len()).rev().find(|&rung| is_clear(face(side, rung)))
+        };
+        for sides in &self.boxes {
+            let options = sides.iter().enumerate().flat_map(|(j, own)| {
+                [
+                    farthest(2 * j, &|x| x >= own.upper).map(|rung| (rung, 2 * j)),
+                    farthest(2 * j + 1, &|x| x < own.lower).map(|rung| (rung, 2 * j + 1)),
+                ]
+            });
+            let options: Vec<(usize, usize)> = options.flatten().collect();
+            if options.iter().any(|&(rung, side)| room.limit(side).is_some_and(|limit| limit <= rung)) {
+                continue;
+            }
+            let &(rung, side) = options.iter().max_by_key(|(rung, _)| *rung)?;
+            room = room.limited(side, rung);
+        }
+        for (j, own) in self.partition.iter().flatten().enumerate() {
+            room = room.limited(2 * j, farthest(2 * j, &|x| x >= own.lower)?);
+            room = room.limited(2 * j + 1, farthest(2 * j + 1, &|x| x < own.upper)?);
+        }
+        Some(room)
     }
 }
 

@@ -8,6 +8,7 @@
 mod action_counts;
 mod base;
 mod between;
+mod cell_box;
 mod cell_counts;
 mod compile;
 mod count_table;
@@ -21,6 +22,8 @@ mod outcomes;
 mod pac;
 mod placement;
 mod reference;
+mod room;
+mod rooms;
 mod row_tasks;
 mod states;
 mod steering;
@@ -28,7 +31,8 @@ mod stencil;
 mod targets;
 mod windows;
 
-pub use cell_counts::{CellBox, CellCounts, Count, RegionCounts};
+pub use cell_box::CellBox;
+pub use cell_counts::{CellCounts, Count, RegionCounts};
 pub use compile::{Abstraction, compile};
 pub use enabled::enabled_actions;
 pub use error::AbstractionError;

@@ -1,6 +1,6 @@
 //! How noise becomes cells: where `d + δ` lies, counted from an origin cell.
 
-use super::cell_counts::CellBox;
+use super::cell_box::CellBox;
 use super::targets::Alignment;
 use crate::noise::NoiseSample;
 use crate::partition::Grid;

@@ -10,6 +10,8 @@ use num_traits::ToPrimitive;
 pub struct Targets {
     dimension: usize,
     layout: Layout,
+    /// Targets that stand there again, after all others: with a row of their own.
+    again: Vec<u32>,
 }
 
 #[derive(Clone, Debug)]
@@ -52,15 +54,31 @@ impl Targets {
                     .collect(),
             },
         };
-        Self { dimension: partition.dimension(), layout }
+        Self { dimension: partition.dimension(), layout, again: vec![] }
     }
 
-    /// The number of targets.
-    pub fn len(&self) -> usize {
+    /// These targets and, after them, some of them again.
+    pub(super) fn standing_again(&self, again: Vec<u32>) -> Self {
+        Self { again, ..self.clone() }
+    }
+
+    /// The target that a number stands for: itself, but for targets that stand there again.
+    pub(super) fn original(&self, target: usize) -> usize {
+        let copy = target.checked_sub(self.num_originals());
+        copy.map_or(target, |copy| self.again[copy] as usize)
+    }
+
+    /// The number of different targets.
+    pub(super) fn num_originals(&self) -> usize {
         match &self.layout {
             Layout::Lattice { axes, .. } => axes.iter().map(Vec::len).product(),
             Layout::List { points, .. } => points.len() / self.dimension,
         }
+    }
+
+    /// The number of targets, with those that stand there again.
+    pub fn len(&self) -> usize {
+        self.num_originals() + self.again.len()
     }
 
     /// Whether there are no targets.
@@ -99,6 +117,7 @@ impl Targets {
 
     /// Writes the coordinates of a target into `point`.
     pub fn point(&self, target: usize, point: &mut [f64]) {
+        let target = self.original(target);
         match &self.layout {
             Layout::Lattice { axes, .. } => {
                 let mut rest = target;
@@ -117,6 +136,7 @@ impl Targets {
     ///
     /// −1 and the number of cells stand for what lies below and above the partition.
     pub fn cell(&self, target: usize, cell: &mut [i32]) {
+        let target = self.original(target);
         match &self.layout {
             Layout::Lattice { cells, .. } => {
                 let mut rest = target;

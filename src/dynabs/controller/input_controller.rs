@@ -1,13 +1,15 @@
 //! The controller of a problem whose actions are inputs.
 
-use super::Decision;
+use super::memory::MemoryUpdate;
 use super::schedule::{Entry, Schedule};
+use super::{Decision, RunMemory};
 use crate::abstraction::inputs::InputAbstraction;
 use crate::guarantee::{Bound, Event, Evidence, Guarantee};
 use crate::landing::LandingSolution;
 use crate::partition::{CellId, CellKind, CellLookup};
 use crate::problem::InputProblem;
 use crate::system::Feedback;
+use crate::task::{CellTask, Memory, Standing};
 use imdp::model::StateId;
 use imdp::numeric::to_f64;
 
@@ -19,7 +21,7 @@ pub struct InputController {
     pub(super) lookup: CellLookup,
     /// Per coordinate the period, 0 where it is not periodic.
     pub(super) periods: Vec<f64>,
-    pub(super) kinds: Vec<CellKind>,
+    pub(super) memory: MemoryUpdate,
     pub(super) horizon: Option<u64>,
     /// The nominal inputs one after the other, `p` numbers each.
     pub(super) inputs: Vec<f64>,
@@ -37,7 +39,7 @@ impl InputController {
     /// Refines the policy of `solution` to a problem.
     pub fn new(problem: &InputProblem, abstraction: &InputAbstraction, solution: &LandingSolution) -> Self {
         let grid = problem.grid();
-        let cells = grid.num_cells();
+        let pairs = problem.cell_task().memories() * grid.num_cells();
         let period = |(axis, &periodic): (&crate::partition::GridAxis, &bool)| {
             if periodic { to_f64(&(axis.upper() - axis.lower())) } else { 0.0 }
         };
@@ -50,13 +52,13 @@ impl InputController {
         Self {
             lookup: CellLookup::new(grid),
             periods: grid.axes().iter().zip(problem.periodic()).map(period).collect(),
-            kinds: problem.labels().iter().map(|(_, kind)| kind).collect(),
+            memory: MemoryUpdate::of_inputs(problem),
             horizon: problem.horizon(),
             inputs: problem.inputs().iter().flatten().map(to_f64).collect(),
             num_inputs: problem.mode().num_inputs(),
             feedback: problem.feedback().clone(),
             centers: grid.axes().iter().map(|axis| axis.centers()).collect(),
-            schedule: Schedule::of_cells((0..cells).map(|cell| solution.policy.changes(StateId(cell)))),
+            schedule: Schedule::of_cells((0..pairs).map(|pair| solution.policy.changes(StateId(pair)))),
             initial: Bound {
                 initial_state: problem.initial_state().map(<[f64]>::to_vec),
                 bound: initial.iter().map(|&cell| lower[cell as usize]).fold(1.0, f64::min),
@@ -83,17 +85,26 @@ impl InputController {
 
     /// The number of cells.
     pub fn num_cells(&self) -> u32 {
-        self.kinds.len() as u32
+        self.memory.task().num_cells() as u32
     }
 
     /// What a cell means to the task.
     pub fn kind(&self, cell: CellId) -> CellKind {
-        self.kinds[cell.index()]
+        self.memory.task().kind(cell)
     }
 
-    /// The actions of a cell by the number of steps left, ascending.
-    pub fn entries(&self, cell: CellId) -> &[Entry] {
-        self.schedule.of(cell)
+    /// What the task makes of the cells.
+    pub fn task(&self) -> &CellTask {
+        self.memory.task()
+    }
+
+    /// The actions of a cell with a memory by the number of steps left, ascending.
+    pub fn entries(&self, memory: Memory, cell: CellId) -> &[Entry] {
+        self.schedule.of(self.pair(memory, cell))
+    }
+
+    fn pair(&self, memory: Memory, cell: CellId) -> usize {
+        memory as usize * self.memory.task().num_cells() + cell.index()
     }
 
     /// The guaranteed probability of success from a cell, at the start.
@@ -143,26 +154,33 @@ impl InputController {
         &self.inputs[action as usize * self.num_inputs..(action as usize + 1) * self.num_inputs]
     }
 
-    /// What to do in a cell after `elapsed` steps.
-    pub fn decide_in(&self, cell: CellId, elapsed: u64) -> Decision {
-        match self.kind(cell) {
-            CellKind::Goal => return Decision::Reached,
-            CellKind::Unsafe => return Decision::Unsafe,
-            CellKind::Ordinary => {}
-        }
+    /// What to do in a cell after `elapsed` steps, where a run stands there with its task.
+    pub fn decide_in(&self, standing: Standing, cell: CellId, elapsed: u64) -> Decision {
+        let memory = match standing {
+            Standing::Reached => return Decision::Reached,
+            Standing::Failed => return Decision::Unsafe,
+            Standing::Open(memory) => memory,
+        };
         let left = self.horizon.map_or(1, |horizon| horizon.saturating_sub(elapsed));
         if left == 0 {
             return Decision::Over;
         }
-        self.schedule.target(cell, left).map_or(Decision::NoAction, |input| Decision::Apply { input })
+        let input = self.schedule.target(self.pair(memory, cell), left);
+        input.map_or(Decision::NoAction, |input| Decision::Apply { input })
     }
 
-    /// `c(x, k)`: decides and, if that is to go on, writes the input into `u`.
-    pub fn control(&self, x: &[f64], elapsed: u64, u: &mut [f64]) -> Decision {
+    /// `c(x, k)`: looks at the state, remembers what it means to the task, decides and, if that is to go on, writes the
+    /// input into `u`.
+    ///
+    /// A run begins with [`RunMemory::default`]; every state of it is looked at, in order.
+    pub fn control(&self, x: &[f64], elapsed: u64, memory: &mut RunMemory, u: &mut [f64]) -> Decision {
         let mut wrapped = x.to_vec();
         self.wrap(&mut wrapped);
-        let Some(cell) = self.lookup.locate(&wrapped) else { return Decision::Outside };
-        let decision = self.decide_in(cell, elapsed);
+        let Some(cell) = self.lookup.locate(&wrapped) else {
+            memory.fail();
+            return Decision::Outside;
+        };
+        let decision = self.decide_in(self.memory.look(memory, cell, &wrapped), cell, elapsed);
         if let Decision::Apply { input } = decision {
             self.feedback.input(self.nominal(input), &wrapped, &self.center(cell), u);
         }

@@ -9,11 +9,13 @@
 pub mod export;
 mod input_controller;
 mod law;
+mod memory;
 mod refined;
 mod schedule;
 mod simulation;
 
 pub use input_controller::InputController;
+pub use memory::RunMemory;
 pub use refined::{Controller, ControllerError, Decision};
 pub use schedule::Entry;
 pub use simulation::{

@@ -151,7 +151,7 @@ impl Controller {
 
     /// The targets of a cell by the number of steps left, ascending.
     pub fn entries(&self, cell: CellId) -> &[Entry] {
-        self.schedule.of(cell)
+        self.schedule.of(cell.index())
     }
 
     /// The guaranteed probability of success from a cell, at the start.
@@ -195,7 +195,9 @@ impl Controller {
         if left == 0 {
             return Decision::Over;
         }
-        self.schedule.target(cell, left).map_or(Decision::NoAction, |target| Decision::Steer { target })
+        self.schedule
+            .target(cell.index(), left)
+            .map_or(Decision::NoAction, |target| Decision::Steer { target })
     }
 
     /// Writes the inputs that steer from `x` to `target`, those of the first step first, into `u`.

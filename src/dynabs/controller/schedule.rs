@@ -1,7 +1,6 @@
 //! Which target a cell steers to, and when.
 
 use crate::abstraction::Abstraction;
-use crate::partition::CellId;
 use imdp::solver::Policy;
 
 /// A target that holds from some number of steps left upwards, until the next entry of the cell.
@@ -48,14 +47,14 @@ impl Schedule {
         schedule
     }
 
-    /// All entries of a cell.
-    pub(super) fn of(&self, cell: CellId) -> &[Entry] {
-        &self.entries[self.starts[cell.index()]..self.starts[cell.index() + 1]]
+    /// All entries of a cell, or of a pair of memory and cell.
+    pub(super) fn of(&self, pair: usize) -> &[Entry] {
+        &self.entries[self.starts[pair]..self.starts[pair + 1]]
     }
 
-    /// The target of a cell with so many steps left.
-    pub(super) fn target(&self, cell: CellId, steps_left: u64) -> Option<u32> {
-        let entries = self.of(cell);
+    /// The target with so many steps left.
+    pub(super) fn target(&self, pair: usize, steps_left: u64) -> Option<u32> {
+        let entries = self.of(pair);
         let later = entries.partition_point(|entry| entry.steps_left <= steps_left);
         later.checked_sub(1).map(|index| entries[index].target)
     }

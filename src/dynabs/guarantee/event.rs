@@ -1,12 +1,15 @@
 //! What is promised to happen.
 
-use crate::landing::Aim;
 use crate::problem::{InputProblem, Problem};
+use crate::task::Aim;
 use serde::{Deserialize, Serialize};
 
 /// Reaching the goal in time and avoiding the unsafe region until then, or staying in the safe region.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Event {
+    /// What an automaton wants, in words: "the run ...".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub task: Option<String>,
     /// Whether something is to be reached or to be kept.
     #[serde(default)]
     pub aim: Aim,
@@ -36,6 +39,7 @@ impl Event {
         let group_steps = problem.group_steps() as u64;
         let outside_everywhere = group_steps == 1 || problem.outside_is_unsafe();
         Self {
+            task: problem.objective().statement(),
             aim: problem.objective().aim(),
             horizon: problem.horizon().map(|steps| steps * group_steps),
             group_steps,
@@ -46,9 +50,9 @@ impl Event {
 
     /// The task of a problem whose actions are inputs.
     pub fn of_inputs(problem: &InputProblem) -> Self {
-        let aim = problem.objective().aim();
         Self {
-            aim,
+            task: problem.objective().statement(),
+            aim: problem.objective().aim(),
             horizon: problem.horizon(),
             group_steps: 1,
             safety: Safety::EveryStep,

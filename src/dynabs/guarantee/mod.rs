@@ -19,7 +19,7 @@ pub use event::{Event, Safety};
 pub use evidence::{Evidence, SampleEvidence};
 pub use gap::Gap;
 
-use crate::landing::Aim;
+use crate::task::Aim;
 use imdp::numeric::{Rational, from_decimal, to_f64};
 use num_traits::One;
 use serde::ser::SerializeStruct;
@@ -40,6 +40,7 @@ impl Guarantee {
     /// A guarantee of nothing.
     pub fn none() -> Self {
         let event = Event {
+            task: None,
             aim: Aim::Reach,
             horizon: None,
             group_steps: 1,

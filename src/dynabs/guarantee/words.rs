@@ -1,7 +1,7 @@
 //! A guarantee in words: sentences and lists of plain ASCII.
 
 use super::{Bound, Evidence, Guarantee, Safety, lower_bound_text};
-use crate::landing::Aim;
+use crate::task::Aim;
 use imdp::numeric::shortest_decimal;
 
 /// What the samples must not have a say in.
@@ -44,11 +44,14 @@ impl Guarantee {
         };
         let within = self.event.horizon.map_or(String::new(), |steps| format!(" within {steps} steps"));
         let what = match (self.event.aim, self.event.horizon) {
+            _ if self.event.task.is_some() => self.automaton_words(),
             (Aim::Reach, _) => format!(
                 "the goal is reached{within}, avoiding the unsafe region and the outside of the partition,"
             ),
-            (Aim::Stay, Some(steps)) => format!("the state stays in the safe region for {steps} steps"),
-            (Aim::Stay, None) => "the state stays in the safe region for ever".to_owned(),
+            (Aim::Stay | Aim::End, Some(steps)) => {
+                format!("the state stays in the safe region for {steps} steps")
+            }
+            (Aim::Stay | Aim::End, None) => "the state stays in the safe region for ever".to_owned(),
         };
         let bound = lower_bound_text(bound.bound);
         let mut sentences = vec![match &self.evidence {
@@ -92,6 +95,18 @@ impl Guarantee {
             ));
         }
         sentences
+    }
+
+    /// What an automaton wants, and for how long.
+    fn automaton_words(&self) -> String {
+        let task = self.event.task.as_deref().unwrap_or_default();
+        let time = match (self.event.aim, self.event.horizon) {
+            (_, None) => String::new(),
+            (Aim::Reach, Some(steps)) => format!(" within {steps} steps"),
+            (Aim::Stay, Some(steps)) => format!(" for {steps} steps"),
+            (Aim::End, Some(steps)) => format!(" as a word of {steps} steps"),
+        };
+        format!("{task}{time}, avoiding the unsafe region and the outside of the partition,")
     }
 
     /// What a reader may expect and is not promised, in a few words.

@@ -1,5 +1,6 @@
 //! Extrema over ranges along one axis of an array.
 
+use super::arrays::Arrays;
 use super::side::Side;
 use rayon::prelude::*;
 
@@ -37,10 +38,10 @@ impl Gather {
     }
 
     /// The extrema.
-    pub(super) fn apply<S: Side>(&self, values: &[f64]) -> Vec<f64> {
+    pub(super) fn apply<S: Side>(&self, values: &[f64], arrays: &Arrays) -> Vec<f64> {
         let Self { len, inner, .. } = *self;
         let count = self.ranges.len();
-        let mut out = vec![0.0; values.len() / len * count];
+        let mut out = arrays.take(values.len() / len * count);
         if inner >= SHORT {
             let rows = out.par_chunks_mut(inner).enumerate().with_min_len((LEAST / inner).max(1));
             rows.for_each(|(row, out)| {
@@ -117,7 +118,9 @@ mod tests {
             let ranges: Vec<(usize, usize)> = all.filter(fits).collect();
             let short = ranges.iter().map(|&(first, size)| (first as u32, size as u32)).collect();
             let gather = Gather::new(1, &shape, periodic, short);
-            let (least, most) = (gather.apply::<Lower>(&values), gather.apply::<Upper>(&values));
+            let arrays = Arrays::default();
+            let (least, most) =
+                (gather.apply::<Lower>(&values, &arrays), gather.apply::<Upper>(&values, &arrays));
             for (o, (r, &(first, size)), i) in (0..outer)
                 .flat_map(|o| ranges.iter().enumerate().map(move |r| (o, r)))
                 .flat_map(|(o, r)| (0..inner).map(move |i| (o, r, i)))

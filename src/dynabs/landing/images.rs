@@ -1,5 +1,6 @@
 //! Where the images of all cells and inputs lie on the lattice.
 
+use super::arrays::Arrays;
 use super::layout::Layout;
 use super::side::Side;
 use rayon::prelude::*;
@@ -150,8 +151,13 @@ impl Images {
 
     /// The extrema over all images, given the values of all sub-cells: by cell, the greatest over its inputs and the
     /// first input that has it.
-    pub(super) fn best<S: Side>(&self, landed: Vec<f64>, mut note: impl FnMut(u32, f64, u32)) {
-        let worth = self.layout.gather::<S>(landed);
+    pub(super) fn best<S: Side>(
+        &self,
+        landed: Vec<f64>,
+        arrays: &Arrays,
+        mut note: impl FnMut(u32, f64, u32),
+    ) {
+        let worth = self.layout.gather::<S>(landed, arrays);
         let of_cell = |c: usize| {
             let mut best: Option<(f64, u32)> = None;
             for input in 0..self.inputs {
@@ -176,5 +182,6 @@ impl Images {
                 note(cell, value, input);
             }
         });
+        arrays.keep(worth);
     }
 }

@@ -1,5 +1,6 @@
 //! Which extrema of landing values are computed in advance, and which when they are looked up.
 
+use super::arrays::Arrays;
 use super::axis::Axis;
 use super::gather::Gather;
 use super::images::{ImageSource, LandingError};
@@ -184,8 +185,12 @@ impl Layout {
     }
 
     /// The array, from the values of all sub-cells.
-    pub(super) fn gather<S: Side>(&self, values: Vec<f64>) -> Vec<f64> {
-        self.gathers.iter().fold(values, |values, gather| gather.apply::<S>(&values))
+    pub(super) fn gather<S: Side>(&self, values: Vec<f64>, arrays: &Arrays) -> Vec<f64> {
+        self.gathers.iter().fold(values, |values, gather| {
+            let gathered = gather.apply::<S>(&values, arrays);
+            arrays.keep(values);
+            gathered
+        })
     }
 
     /// The extremum over an image.

@@ -14,6 +14,8 @@
 //!
 //! All numbers are rounded to the side that they bound: sums of products of numbers in `[0, 1]` err by a known factor.
 
+mod arrays;
+mod arrivals;
 mod axis;
 mod gather;
 mod images;
@@ -36,6 +38,6 @@ pub use images::{ImageSource, Images, LandingError, occurring};
 pub use layout::Layout;
 pub use model::LandingModel;
 pub use side::{Lower, Side, Upper};
-pub use solve::{Aim, LandingSolution, Question};
+pub use solve::{LandingSolution, Question};
 pub use step::{Best, Landing};
 pub use taps::Taps;

@@ -1,14 +1,16 @@
 //! The lattice game as an interval MDP, for everyone who reads such models.
 //!
-//! A cell's choice leads to the *range* state of its image, where nature picks a sub-cell; from there *landing* and *pair*
+//! There is a state for every memory of the task in every cell in which it may be open. Its choice leads to the *range* state of its image, where nature picks a sub-cell; from there *landing* and *pair*
 //! states follow, one of each per coordinate with noise (see the module's page). All are shared. What noise is not
 //! listed goes to the state `lost`, which nature may count as won or lost, so that the model has both bounds:
 //! `Pmaxmin` and `Pmaxmax`.
 
+use super::arrivals::{Arrivals, FAILED, LOST, REACHED};
 use super::images::Images;
 use super::layers::{Layers, Outcomes, push_any};
-use super::solve::{Aim, Question};
+use super::solve::Question;
 use super::step::Landing;
+use crate::task::Aim;
 use imdp::model::{
     ActionNames, ChoicesBuilder, ImdpError, IntervalMdp, Labels, ModelKind, Parts, RowId, RowRange, Rows,
     StateId, StateSet, StateVariables,
@@ -20,43 +22,61 @@ use std::collections::{BTreeSet, HashMap};
 pub struct LandingModel {
     /// The model.
     pub model: IntervalMdp,
-    /// By cell: its state; cells that lost or won share one.
-    pub of_cell: Vec<StateId>,
+    /// By cell: the states in one of which nature begins; cells that lost or won share one.
+    pub of_cell: Vec<Vec<StateId>>,
     /// How many steps of the model are one of the system.
     pub micro_steps: u64,
 }
 
-/// Everything that failed.
-const FAILED: StateId = StateId(0);
-/// Where unlisted noise goes.
-const LOST: StateId = StateId(1);
-/// All goal cells, if there is a goal.
-const REACHED: StateId = StateId(2);
-
 impl Question<'_> {
     /// The model, with `initial` cells.
+    ///
+    /// A task that is decided at its last step only gets memories that count the steps.
     ///
     /// # Errors
     /// [`ImdpError`] if the parts do not make a model: a mistake in this program.
     pub fn model(&self, initial: &[u32]) -> Result<LandingModel, ImdpError> {
-        let heads: u32 = if self.aim == Aim::Reach { 3 } else { 2 };
-        let mut of_cell = vec![FAILED; self.goal.len()];
-        for (state, goal) in of_cell.iter_mut().zip(self.goal) {
-            *state = if *goal { REACHED } else { FAILED };
+        match (self.task.aim(), self.steps) {
+            (Aim::End, Some(steps)) => {
+                let task = self.task.clocked(steps);
+                Question { task: &task, ..*self }.model_of_memories(initial)
+            }
+            _ => self.model_of_memories(initial),
         }
-        (heads..).zip(self.open).for_each(|(state, &cell)| of_cell[cell as usize] = StateId(state));
-        let cells_end = heads as usize + self.open.len();
+    }
+
+    /// How many steps of the model are one of the system.
+    pub fn micro_steps(&self) -> u64 {
+        self.landing.micro_steps() + u64::from(self.task.is_ambiguous())
+    }
+
+    fn model_of_memories(&self, initial: &[u32]) -> Result<LandingModel, ImdpError> {
+        let can_be_done = self.task.aim() == Aim::Reach || self.task.can_be_done();
+        let heads: u32 = if can_be_done { 3 } else { 2 };
+        let pairs = self.pairs();
+        let arrivals = Arrivals::new(self.task, &pairs, heads);
         let ranges = Ranges::new(self.images);
-        let outcomes = Outcomes { failed: FAILED, lost: LOST, of_cell: &of_cell };
-        let layers = Layers::new(self.landing, cells_end + ranges.places.len(), outcomes);
-        let states = layers.end();
+        let mut start = arrivals.end;
+        let mut layers = vec![];
+        for of_cell in &arrivals.of_cell {
+            let first = start + ranges.places.len();
+            let outcomes = Outcomes { failed: FAILED, lost: LOST, of_cell };
+            layers.push((start, Layers::new(self.landing, first, outcomes)));
+            start = layers.last().map_or(first, |(_, layers)| layers.end());
+        }
+        let states = start;
 
         let mut rows = Rows::new();
-        push_any(&mut rows, vec![FAILED, if self.aim == Aim::Reach { REACHED } else { LOST }]);
-        (0..ranges.places.len())
-            .for_each(|range| push_any(&mut rows, vec![StateId::from_index(cells_end + range)]));
-        ranges.places.iter().for_each(|place| push_any(&mut rows, self.sub_cells(&layers, place)));
-        layers.push_rows(&mut rows);
+        push_any(&mut rows, vec![FAILED, if can_be_done { REACHED } else { LOST }]);
+        for (start, _) in &layers {
+            (0..ranges.places.len())
+                .for_each(|range| push_any(&mut rows, vec![StateId::from_index(start + range)]));
+        }
+        arrivals.picks.iter().for_each(|states| push_any(&mut rows, states.clone()));
+        for (_, layers) in &layers {
+            ranges.places.iter().for_each(|place| push_any(&mut rows, self.sub_cells(layers, place)));
+            layers.push_rows(&mut rows);
+        }
 
         let mut choices = ChoicesBuilder::with_capacity(states);
         let mut ids = vec![];
@@ -71,24 +91,34 @@ impl Question<'_> {
             ids.push(ActionNames::UNNAMED);
         }
         let inputs = self.images.inputs();
-        let mut pairs = ranges.of_pairs.iter().peekable();
-        for &cell in self.open {
-            while let Some(&&(_, input, range)) = pairs.peek().filter(|(of, ..)| *of == cell) {
-                choices.push_range(one(1 + range as usize));
-                ids.push(input);
-                pairs.next();
+        for (memory, open) in pairs.iter().enumerate() {
+            let mut enabled = ranges.of_pairs.iter().peekable();
+            for &cell in open {
+                while enabled.next_if(|(of, ..)| *of < cell).is_some() {}
+                while let Some(&(_, input, range)) = enabled.next_if(|(of, ..)| *of == cell) {
+                    choices.push_range(one(1 + memory * ranges.places.len() + range as usize));
+                    ids.push(input);
+                }
+                choices.finish_state();
             }
-            choices.finish_state();
         }
-        for state in cells_end..states {
-            choices.push_range(one(1 + ranges.places.len() + state - cells_end));
+        let others = 1 + pairs.len() * ranges.places.len();
+        for state in arrivals.pairs_end..states {
+            choices.push_range(one(others + state - arrivals.pairs_end));
             choices.finish_state();
             ids.push(ActionNames::UNNAMED);
         }
         let mut labels = Labels::default();
         labels.insert("deadlock", set(states, None));
-        labels.insert("reached", set(states, (self.aim == Aim::Reach).then_some(REACHED)));
+        labels.insert("reached", set(states, can_be_done.then_some(REACHED)));
         labels.insert("failed", set(states, Some(FAILED)));
+        if pairs.len() > 1 {
+            for (memory, first) in arrivals.first.iter().enumerate() {
+                let last = first + pairs[memory].len() as u32;
+                labels.insert(format!("memory_{memory}"), set(states, (*first..last).map(StateId)));
+            }
+        }
+        let starts = initial.iter().flat_map(|&cell| &arrivals.at_start[cell as usize]).copied();
         let model = IntervalMdp::new(Parts {
             kind: ModelKind::Imdp,
             rows,
@@ -97,11 +127,11 @@ impl Question<'_> {
                 names: (0..inputs).map(|input| format!("u_{input}")).collect(),
                 ids,
             },
-            initial: set(states, initial.iter().map(|&cell| of_cell[cell as usize])),
+            initial: set(states, starts),
             labels,
             variables: StateVariables::default(),
         })?;
-        Ok(LandingModel { model, of_cell, micro_steps: self.landing.micro_steps() })
+        Ok(LandingModel { model, of_cell: arrivals.at_start, micro_steps: self.micro_steps() })
     }
 
     /// The states of the sub-cells of a box.
@@ -122,7 +152,7 @@ impl Question<'_> {
 
 fn set(states: usize, members: impl IntoIterator<Item = StateId>) -> StateSet {
     let mut set = StateSet::with_capacity(states);
-    set.extend(members.into_iter().map(|state| state.index()));
+    set.extend(members.into_iter().map(StateId::index));
     set
 }
 

@@ -1,22 +1,12 @@
-//! Value iteration over all cells, rounded to one side.
+//! Value iteration over all cells and memories, rounded to one side.
 
 use super::images::Images;
-use super::side::{Lower, Upper};
+use super::side::{Lower, Side, Upper};
 use super::step::{Best, Landing};
+use crate::task::{Aim, CellTask, Memory, Standing};
 use imdp::model::StateId;
 use imdp::solver::{Control, NO_CHOICE, Policy, SolverOptions, Status, ValueBounds};
-use serde::{Deserialize, Serialize};
-
-/// What a run of the system is wanted to do.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Aim {
-    /// To come to a cell of the goal.
-    #[default]
-    Reach,
-    /// To stay in the open cells.
-    Stay,
-}
+use rayon::prelude::*;
 
 /// A task on the lattice.
 #[derive(Clone, Copy, Debug)]
@@ -25,12 +15,10 @@ pub struct Question<'a> {
     pub landing: &'a Landing,
     /// Where inputs take the open cells.
     pub images: &'a Images,
-    /// The cells in which there is something to decide, ascending; to be in any other cell is to have won or lost.
+    /// The cells in which something can be done, ascending; what is open in another cell has failed.
     pub open: &'a [u32],
-    /// By cell: whether it is in the goal.
-    pub goal: &'a [bool],
     /// What is wanted.
-    pub aim: Aim,
+    pub task: &'a CellTask,
     /// Within how many steps, or at any time.
     pub steps: Option<u64>,
 }
@@ -38,9 +26,11 @@ pub struct Question<'a> {
 /// Bounds on the value of every cell, and the policy that guarantees the lower ones.
 #[derive(Clone, Debug)]
 pub struct LandingSolution {
-    /// The bounds, by cell.
+    /// The bounds at the start, by cell.
     pub values: ValueBounds,
-    /// By cell: its inputs.
+    /// The bounds with a memory, by `memory · cells + cell`; 0 where nothing is open.
+    pub with_memory: ValueBounds,
+    /// The inputs, by `memory · cells + cell`.
     pub policy: Policy,
     /// How the computation ended.
     pub status: Status,
@@ -58,71 +48,121 @@ impl Question<'_> {
     /// than the upper one. Both hold however the computation ends.
     pub fn solve(&self, options: &SolverOptions<'_>) -> LandingSolution {
         let mut control = Control::new(options);
-        let (lower, policy, stopped) = self.lower_bounds(&mut control);
+        let pairs = self.pairs();
+        let (lower, policy, stopped) = self.lower_bounds(&pairs, &mut control);
         let iterations = control.iterations;
         let (upper, stopped_above) = match stopped {
-            None => self.upper_bounds(&mut control, iterations),
-            Some(_) => (self.most(), None),
+            None => self.upper_bounds(&pairs, &mut control, iterations),
+            Some(_) => (self.most(&pairs), None),
         };
-        let values = ValueBounds { lower, upper };
+        let values = ValueBounds {
+            lower: self.arrivals::<Lower>(None, &lower),
+            upper: self.arrivals::<Upper>(None, &upper),
+        };
         let status = match (stopped.or(stopped_above), self.steps) {
             (Some(reason), _) => reason,
             (None, Some(_)) => Status::HorizonReached,
             (None, None) if values.gap() <= options.epsilon => Status::Converged,
             (None, None) => Status::PrecisionLimit,
         };
-        LandingSolution { values, policy, status, iterations }
+        LandingSolution { values, with_memory: ValueBounds { lower, upper }, policy, status, iterations }
     }
 
-    /// The values before any step: 1 in the goal, or in the cells to stay in.
-    fn start(&self) -> Vec<f64> {
-        match self.aim {
-            Aim::Reach => self.goal.iter().map(|&goal| f64::from(u8::from(goal))).collect(),
-            Aim::Stay => self.most(),
-        }
+    /// By memory, the cells in which something can be done with it, ascending.
+    pub(super) fn pairs(&self) -> Vec<Vec<u32>> {
+        let with = |memory: Memory| {
+            self.open
+                .iter()
+                .copied()
+                .filter(|&cell| self.task.open(cell as usize).contains(&memory))
+                .collect()
+        };
+        (0..self.task.memories()).map(with).collect()
+    }
+
+    /// What it is worth to arrive in each cell, with a memory before or at the start, for values by memory and cell.
+    pub(super) fn arrivals<S: Side>(&self, before: Option<Memory>, values: &[f64]) -> Vec<f64> {
+        let cells = self.task.num_cells();
+        let worth = |cell: usize, standing: &Standing| match standing {
+            Standing::Failed => 0.0,
+            Standing::Reached => 1.0,
+            Standing::Open(memory) => values[*memory as usize * cells + cell],
+        };
+        let arrival = |cell: usize| {
+            let all = self.task.standings(before, cell).iter().map(|standing| worth(cell, standing));
+            all.reduce(S::of).unwrap_or(0.0)
+        };
+        (0..cells).into_par_iter().with_min_len(1 << 12).map(arrival).collect()
+    }
+
+    /// One step with every memory.
+    pub(super) fn step<S: Side>(&self, landing: &Landing, values: &[f64]) -> Vec<Best> {
+        let best = |memory| landing.best::<S>(self.images, &self.arrivals::<S>(Some(memory), values));
+        (0..self.task.memories()).map(best).collect()
+    }
+
+    /// The values before any step: those of memories with which the task may end.
+    fn start(&self, pairs: &[Vec<u32>]) -> Vec<f64> {
+        self.filled(pairs, |memory| self.task.accepts(memory))
     }
 
     /// The largest values there can be.
-    fn most(&self) -> Vec<f64> {
-        let mut values: Vec<_> = self.goal.iter().map(|&goal| f64::from(u8::from(goal))).collect();
-        self.open.iter().for_each(|&cell| values[cell as usize] = 1.0);
+    fn most(&self, pairs: &[Vec<u32>]) -> Vec<f64> {
+        self.filled(pairs, |_| true)
+    }
+
+    fn filled(&self, pairs: &[Vec<u32>], is_one: impl Fn(Memory) -> bool) -> Vec<f64> {
+        let cells = self.task.num_cells();
+        let mut values = vec![0.0; pairs.len() * cells];
+        for (memory, open) in pairs.iter().enumerate().filter(|(memory, _)| is_one(*memory as Memory)) {
+            open.iter().for_each(|&cell| values[memory * cells + cell as usize] = 1.0);
+        }
         values
     }
 
     /// Lower bounds and the policy that guarantees them.
     ///
     /// To stay for ever under the worst noise is to be where one can for certain, or to come there.
-    fn lower_bounds(&self, control: &mut Control<'_>) -> (Vec<f64>, Policy, Option<Status>) {
-        let mut policy = Choices::new(self.goal.len(), self.steps);
-        let mut values = self.start();
-        if self.aim == Aim::Stay && self.steps.is_none() {
-            values =
-                self.landing.invariant(self.images, self.open, |cell, input| policy.note(cell, 1, input));
-        }
+    fn lower_bounds(
+        &self,
+        pairs: &[Vec<u32>],
+        control: &mut Control<'_>,
+    ) -> (Vec<f64>, Policy, Option<Status>) {
+        let cells = self.task.num_cells();
+        let mut policy = Choices::new(pairs.len() * cells, self.steps);
+        let (aim, is_bounded) = (self.task.aim(), self.steps.is_some());
+        let mut values = match aim == Aim::Stay && !is_bounded {
+            true => self.invariant(pairs, |pair, input| policy.note(pair, 1, input)),
+            false => self.start(pairs),
+        };
         let certain: Vec<bool> = values.iter().map(|&v| v == 1.0).collect();
-        let shrinks = self.aim == Aim::Stay && self.steps.is_some();
+        // Values of reaching grow from step to step, others are only known after the last.
+        let renews = aim != Aim::Reach && is_bounded;
         while self.steps.is_none_or(|steps| control.iterations < steps) {
             if let Some(reason) = control.stop() {
-                let values = if shrinks { vec![0.0; values.len()] } else { values };
+                let values = if renews { vec![0.0; values.len()] } else { values };
                 return (values, policy.finish(), Some(reason));
             }
-            let best = self.landing.best::<Lower>(self.images, &values);
             let left = control.iterations + 1;
             let mut change = 0.0f64;
-            for &cell in self.open {
-                let at = cell as usize;
-                if certain[at] && !shrinks {
-                    continue;
-                }
-                let (old, new) = (values[at], best.values[at]);
-                if shrinks || new > old {
-                    policy.note(cell, left, best.inputs[at]);
-                    values[at] = new;
-                    change = change.max((new - old).abs());
+            for ((memory, best), open) in
+                self.step::<Lower>(self.landing, &values).iter().enumerate().zip(pairs)
+            {
+                for &cell in open {
+                    let pair = memory * cells + cell as usize;
+                    if certain[pair] && !renews {
+                        continue;
+                    }
+                    let (old, new) = (values[pair], best.values[cell as usize]);
+                    if renews || new > old {
+                        policy.note(pair as u32, left, best.inputs[cell as usize]);
+                        values[pair] = new;
+                        change = change.max((new - old).abs());
+                    }
                 }
             }
             control.done(change);
-            if !shrinks && change <= self.standstill(control) {
+            if !renews && change <= self.standstill(control) {
                 break;
             }
         }
@@ -130,24 +170,39 @@ impl Question<'_> {
     }
 
     /// Upper bounds; without a bound on the steps, those after `iterations` steps from above.
-    fn upper_bounds(&self, control: &mut Control<'_>, iterations: u64) -> (Vec<f64>, Option<Status>) {
-        let shrinks = self.steps.is_none() || self.aim == Aim::Stay;
-        let mut values = if shrinks { self.most() } else { self.start() };
+    fn upper_bounds(
+        &self,
+        pairs: &[Vec<u32>],
+        control: &mut Control<'_>,
+        iterations: u64,
+    ) -> (Vec<f64>, Option<Status>) {
+        let cells = self.task.num_cells();
+        let (aim, is_bounded) = (self.task.aim(), self.steps.is_some());
+        let shrinks = !is_bounded || aim == Aim::Stay;
+        let mut values = if shrinks { self.most(pairs) } else { self.start(pairs) };
         for _ in 0..self.steps.unwrap_or(iterations) {
             if let Some(reason) = control.stop() {
-                return (if shrinks { values } else { self.most() }, Some(reason));
+                return (if shrinks { values } else { self.most(pairs) }, Some(reason));
             }
-            let Best { values: best, .. } = self.landing.best::<Upper>(self.images, &values);
             let mut change = 0.0f64;
-            for &cell in self.open {
-                let (old, new) = (&mut values[cell as usize], best[cell as usize]);
-                // Exact values move one way only: anything else is rounding.
-                let new = if shrinks { new.min(*old) } else { new.max(*old) };
-                change = change.max((new - *old).abs());
-                *old = new;
+            for ((memory, best), open) in
+                self.step::<Upper>(self.landing, &values).iter().enumerate().zip(pairs)
+            {
+                for &cell in open {
+                    let (old, new) =
+                        (&mut values[memory * cells + cell as usize], best.values[cell as usize]);
+                    // Exact values move one way only: anything else is rounding.
+                    let new = match (shrinks, aim) {
+                        (true, _) => new.min(*old),
+                        (false, Aim::End) => new,
+                        (false, _) => new.max(*old),
+                    };
+                    change = change.max((new - *old).abs());
+                    *old = new;
+                }
             }
             control.done(change);
-            if change == 0.0 || self.steps.is_none() && change <= self.standstill(control) {
+            if change == 0.0 || !is_bounded && change <= self.standstill(control) {
                 break;
             }
         }

@@ -1,5 +1,6 @@
 //! One coordinate's noise: a convolution along one axis of an array.
 
+use super::arrays::Arrays;
 use super::axis::Axis;
 use super::kernel::Run;
 use super::side::Side;
@@ -50,32 +51,38 @@ impl Stage {
         self.axis.len as f64 / self.axis.cells as f64
     }
 
-    /// The landing values of an array with `inner` numbers for each cell of the axis.
-    pub(super) fn apply<S: Side>(&self, values: &[f64], inner: usize) -> Vec<f64> {
+    /// The landing values, none too small to be multiplied, of an array with `inner` numbers for each cell of the axis.
+    pub(super) fn apply<S: Side>(&self, values: &[f64], inner: usize, arrays: &Arrays) -> Vec<f64> {
         let Axis { cells, len, .. } = self.axis;
         let noisy = self.axis.noise.is_some();
-        let mut out = vec![0.0; values.len() / cells * len];
-        let pairs = if noisy { self.pairs::<S>(values, inner) } else { vec![] };
+        let mut out = arrays.take(values.len() / cells * len);
+        let mut pairs = arrays.take(if noisy { values.len() / cells * (cells + 1) } else { 0 });
+        if noisy {
+            self.pairs::<S>(values, inner, &mut pairs);
+        }
         rows(&mut out, inner).for_each(|(row, out)| {
             let (block, sources) = (row / len, &self.sources[row % len]);
             let values = &values[block * cells * inner..(block + 1) * cells * inner];
             if noisy {
                 let pairs = &pairs[block * (cells + 1) * inner..(block + 1) * (cells + 1) * inner];
+                out.fill(0.0);
                 sources.sum::<S>((values, pairs), inner, out);
                 let slack = self.slack * S::UNLISTED;
-                out.iter_mut().for_each(|x| *x = S::add(*x, slack).min(1.0));
+                out.iter_mut().for_each(|x| *x = S::above_underflow(S::add(*x, slack).min(1.0)));
             } else if let Some(run) = sources.rows.first() {
                 out.copy_from_slice(&values[run.first * inner..(run.first + 1) * inner]);
+            } else {
+                out.fill(S::above_underflow(0.0));
             }
         });
+        arrays.keep(pairs);
         out
     }
 
-    /// `pairs[c + 1] = opt(V(c), V(c + 1))` for `c = −1 … cells − 1`, with failure outside.
-    fn pairs<S: Side>(&self, values: &[f64], inner: usize) -> Vec<f64> {
+    /// Writes `pairs[c + 1] = opt(V(c), V(c + 1))` for `c = −1 … cells − 1`, with failure outside.
+    fn pairs<S: Side>(&self, values: &[f64], inner: usize, pairs: &mut [f64]) {
         let Axis { cells, periodic, .. } = self.axis;
-        let mut pairs = vec![0.0; values.len() / cells * (cells + 1)];
-        rows(&mut pairs, inner).for_each(|(row, out)| {
+        rows(pairs, inner).for_each(|(row, out)| {
             let (block, c) = (row / (cells + 1), row % (cells + 1));
             let cell = |c: usize| &values[(block * cells + c) * inner..(block * cells + c + 1) * inner];
             let (below, above) = match (periodic, c) {
@@ -86,7 +93,6 @@ impl Stage {
             };
             out.iter_mut().zip(below.iter().zip(above)).for_each(|(out, (a, b))| *out = S::of(*a, *b));
         });
-        pairs
     }
 }
 

@@ -1,5 +1,6 @@
 //! One robust step for all cells: `V⁺(s) = max_a min { G(i) : i ∈ I(s,a) }`, or with maxima for the upper bound.
 
+use super::arrays::Arrays;
 use super::axis::Axis;
 use super::images::Images;
 use super::side::Side;
@@ -13,6 +14,7 @@ pub struct Landing {
     axes: Vec<Axis>,
     /// In the order in which they are applied, with the axis that each is about.
     stages: Vec<(usize, Stage)>,
+    arrays: Arrays,
 }
 
 /// The best input of every cell and what it is worth.
@@ -30,7 +32,7 @@ impl Landing {
         let mut stages: Vec<_> = axes.iter().map(Stage::new).enumerate().collect();
         // Those that make the array longer last: the others then have less to do.
         stages.sort_by(|(_, a), (_, b)| a.growth().total_cmp(&b.growth()));
-        Self { stages, axes }
+        Self { stages, axes, arrays: Arrays::default() }
     }
 
     /// The axes.
@@ -68,12 +70,13 @@ impl Landing {
 
     /// The landing value `G` of every sub-cell that is looked at, for the values of all cells.
     pub fn values<S: Side>(&self, of_cells: &[f64]) -> Vec<f64> {
-        let mut values: Vec<f64> = of_cells.iter().map(|&v| S::above_underflow(v)).collect();
+        let mut values = self.arrays.take(of_cells.len());
+        values.iter_mut().zip(of_cells).for_each(|(v, &of_cell)| *v = S::above_underflow(of_cell));
         let mut shape: Vec<usize> = self.axes.iter().map(|axis| axis.cells).collect();
         for (j, stage) in &self.stages {
             let inner = shape[j + 1..].iter().product();
-            values = stage.apply::<S>(&values, inner);
-            values.iter_mut().for_each(|v| *v = S::above_underflow(*v));
+            let landed = stage.apply::<S>(&values, inner, &self.arrays);
+            self.arrays.keep(std::mem::replace(&mut values, landed));
             shape[*j] = stage.axis().len;
         }
         values
@@ -82,7 +85,7 @@ impl Landing {
     /// The best input of every cell for the values of all cells.
     pub fn best<S: Side>(&self, images: &Images, of_cells: &[f64]) -> Best {
         let mut best = Best { values: vec![0.0; of_cells.len()], inputs: vec![NO_CHOICE; of_cells.len()] };
-        images.best::<S>(self.values::<S>(of_cells), |cell, value, input| {
+        images.best::<S>(self.values::<S>(of_cells), &self.arrays, |cell, value, input| {
             best.values[cell as usize] = value;
             best.inputs[cell as usize] = input;
         });

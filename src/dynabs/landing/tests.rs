@@ -1,6 +1,8 @@
 //! Small games against their definition in exact arithmetic, and against the general solver.
 
 use super::*;
+use crate::partition::CellKind;
+use crate::task::{Aim, CellTask};
 use imdp::numeric::{Rational, from_dyadic, to_f64};
 use imdp::property::{PathFormula, Property, Resolution, StateFormula};
 use imdp::solver::{Answer, SolverOptions};
@@ -28,6 +30,17 @@ impl Game {
     fn images(&self, pairs: u64) -> Images {
         let occurs = occurring(self, &self.open, self.axes.len());
         Images::new(self, &self.open, Layout::new(self, &occurs, &self.axes, pairs).unwrap())
+    }
+}
+
+impl Game {
+    fn task(&self) -> CellTask {
+        let kind = |cell: usize| match (self.goal[cell], self.open.contains(&(cell as u32))) {
+            (true, _) => CellKind::Goal,
+            (false, true) => CellKind::Ordinary,
+            (false, false) => CellKind::Unsafe,
+        };
+        CellTask::of_kinds(self.aim, (0..self.goal.len()).map(kind))
     }
 }
 
@@ -157,7 +170,7 @@ fn property(game: &Game, resolution: Resolution, steps: Option<u64>) -> Property
             Aim::Reach => {
                 PathFormula::Until { left: not_failed, right: StateFormula::label("reached"), steps }
             }
-            Aim::Stay => PathFormula::Globally { formula: not_failed, steps },
+            Aim::Stay | Aim::End => PathFormula::Globally { formula: not_failed, steps },
         },
     )
 }
@@ -169,9 +182,9 @@ fn small_games_have_their_value() {
         let landing = Landing::new(game.axes.clone());
         // Few lookups are scanned, for many it pays to gather all axes.
         let images = game.images([0, 100, 100_000][seed as usize / 3 % 3]);
-        let Game { open, goal, aim, .. } = &game;
+        let (open, task) = (&game.open, &game.task());
         assert_eq!(images.acting(), *open);
-        let question = Question { landing: &landing, images: &images, open, goal, aim: *aim, steps: Some(3) };
+        let question = Question { landing: &landing, images: &images, open, task, steps: Some(3) };
         let solution = question.solve(&SolverOptions::default());
         for (lower, bounds) in [(true, &solution.values.lower), (false, &solution.values.upper)] {
             let exact = by_definition(&game, &landing, 3, lower);
@@ -196,9 +209,9 @@ fn the_general_solver_gives_the_same_values() {
         let game = game(seed);
         let landing = Landing::new(game.axes.clone());
         let images = game.images(game.open.len() as u64);
-        let Game { open, goal, aim, .. } = &game;
+        let (open, task) = (&game.open, &game.task());
         for steps in [Some(3), None] {
-            let question = Question { landing: &landing, images: &images, open, goal, aim: *aim, steps };
+            let question = Question { landing: &landing, images: &images, open, task, steps };
             let solution = question.solve(&SolverOptions::default());
             let encoded = question.model(&[0]).unwrap();
             let micro_steps = steps.map(|steps| steps * encoded.micro_steps);
@@ -208,7 +221,8 @@ fn the_general_solver_gives_the_same_values() {
                 let options = SolverOptions { epsilon: 1e-9, ..SolverOptions::default() };
                 let answer =
                     Answer::new(&encoded.model, &property(&game, resolution, micro_steps), &options).unwrap();
-                for (cell, &state) in encoded.of_cell.iter().enumerate() {
+                for (cell, states) in encoded.of_cell.iter().enumerate() {
+                    let [state] = states[..] else { panic!("one start") };
                     let (lower, upper, own) =
                         (answer.values.lower[state.index()], answer.values.upper[state.index()], own[cell]);
                     let agrees = match (steps, resolution) {

@@ -1,7 +1,9 @@
 //! The fields of a model file.
 
 use super::dynamics::DynamicsSpec;
-use crate::problem::{DistributionParts, GroupSteps, Horizon};
+use super::named::Named;
+use super::task_fields::{ShapesSpec, TaskSpec};
+use crate::problem::{DistributionParts, GroupSteps};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
@@ -46,6 +48,9 @@ pub(super) struct ModelFile {
     /// are the targets, or a list of points.
     #[serde(default)]
     pub(super) targets: TargetsSpec,
+    /// Regions with names, for tasks to speak of: each a box, a polytope, or a list of those for their union.
+    #[serde(default)]
+    pub(super) regions: Named<ShapesSpec>,
     /// What the controller is to achieve.
     pub(super) task: TaskSpec,
     /// The state from which the guarantee is wanted; without it every ordinary cell is initial.
@@ -223,77 +228,6 @@ pub(super) enum TargetsSpec {
     Points(Vec<Vec<f64>>),
 }
 
-/// A task: to reach a goal, or to stay somewhere.
-#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct TaskSpec {
-    /// "reach" (the default) or "stay".
-    #[serde(rename = "type", default)]
-    pub(super) kind: TaskKind,
-    /// reach: the goal, a union of boxes; a cell counts if the union contains it.
-    #[serde(default)]
-    pub(super) goal: Option<Vec<RegionSpec>>,
-    /// stay: where to be at every step, a union of boxes; a cell counts if the union contains it. The whole partition
-    /// if absent.
-    #[serde(default)]
-    pub(super) safe: Option<Vec<RegionSpec>>,
-    /// What must be avoided: a union of boxes; a cell counts if it meets one. Boxes are half-open,
-    /// [lower, upper), like cells. The entry "outside" stands for everything outside the partition: with grouped steps
-    /// it is then avoided between them too.
-    #[serde(rename = "unsafe", default)]
-    pub(super) unsafe_: Vec<UnsafeSpec>,
-    /// The number of original steps that the task is about, or "infinite".
-    pub(super) horizon: Horizon,
-    /// The probability that is wanted, if any.
-    #[serde(default)]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub(super) threshold: Option<f64>,
-    /// With grouped steps, when the unsafe region must be avoided: at "every_step" (the default, unless the samples are
-    /// of "grouped" steps), or only at the "grouped" instants, which promises nothing for the steps in between.
-    #[serde(default)]
-    pub(super) check: Option<SafetyCheck>,
-}
-
-/// Something unsafe.
-#[derive(Clone, Debug)]
-pub(super) enum UnsafeSpec {
-    /// Everything outside the partition.
-    Outside,
-    /// A box.
-    Region(RegionSpec),
-}
-
-/// When the unsafe region must be avoided.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum SafetyCheck {
-    /// At every original step.
-    EveryStep,
-    /// Whenever a group of steps ends.
-    Grouped,
-}
-
-/// What is wanted.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum TaskKind {
-    /// To reach a goal.
-    #[default]
-    Reach,
-    /// To stay in a region.
-    Stay,
-}
-
-/// A box with possibly unbounded sides.
-#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RegionSpec {
-    /// The lower corner, n numbers; null is unbounded.
-    pub(super) lower: Vec<Option<f64>>,
-    /// The upper corner, n numbers; null is unbounded.
-    pub(super) upper: Vec<Option<f64>>,
-}
-
 /// How probability intervals are computed: `{"mode": "pac", "confidence": 0.99}` (or `"beta"`), or
 /// `{"mode": "reference", "beta_per_interval": 0.01}`.
 #[derive(Clone, Debug, Default, serde::Deserialize, JsonSchema)]
@@ -334,8 +268,8 @@ pub(super) enum Mode {
 }
 
 /// Reads an unsigned integer or one keyword.
-struct IntegerOr {
-    keyword: &'static str,
+pub(super) struct IntegerOr {
+    pub(super) keyword: &'static str,
 }
 
 impl<'de> Visitor<'de> for IntegerOr {
@@ -364,40 +298,6 @@ impl<'de> Deserialize<'de> for GroupSteps {
             None => Ok(Self::Auto),
             Some(steps) => u32::try_from(steps).map(Self::Steps).map_err(de::Error::custom),
         }
-    }
-}
-
-impl<'de> Deserialize<'de> for Horizon {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let steps = deserializer.deserialize_any(IntegerOr { keyword: "infinite" })?;
-        Ok(steps.map_or(Self::Infinite, Self::Steps))
-    }
-}
-
-impl<'de> Deserialize<'de> for UnsafeSpec {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(UnsafeVisitor)
-    }
-}
-
-struct UnsafeVisitor;
-
-impl<'de> Visitor<'de> for UnsafeVisitor {
-    type Value = UnsafeSpec;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a box {\"lower\", \"upper\"} or \"outside\"")
-    }
-
-    fn visit_str<E: de::Error>(self, value: &str) -> Result<UnsafeSpec, E> {
-        match value {
-            "outside" => Ok(UnsafeSpec::Outside),
-            other => Err(E::invalid_value(de::Unexpected::Str(other), &self)),
-        }
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<UnsafeSpec, A::Error> {
-        RegionSpec::deserialize(MapAccessDeserializer::new(map)).map(UnsafeSpec::Region)
     }
 }
 
@@ -439,27 +339,6 @@ impl JsonSchema for GroupSteps {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({"anyOf": [{"type": "integer", "minimum": 1}, {"const": "auto"}]})
-    }
-}
-
-impl JsonSchema for Horizon {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        "Horizon".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({"anyOf": [{"type": "integer", "minimum": 1}, {"const": "infinite"}]})
-    }
-}
-
-impl JsonSchema for UnsafeSpec {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        "Unsafe".into()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let region = generator.subschema_for::<RegionSpec>();
-        json_schema!({"anyOf": [region, {"const": "outside"}]})
     }
 }
 

@@ -1,12 +1,14 @@
 //! From the fields of a model file to the parts of a problem whose actions are inputs.
 
 use super::fields::{FeedbackSpec, LqrSpec, ModelFile, NoiseSpec, SetSpec, TargetsSpec};
-use super::parts::{given, input_set, partition, task};
+use super::parts::{given, input_set, partition};
+use super::task_parts::task;
 use crate::Diagnostic;
 use crate::problem::{FeedbackChoice, InputChoice, InputParts, InputSet, LqrWeights};
+use std::path::Path;
 
 /// The parts, not yet checked against each other.
-pub(super) fn input_parts(file: ModelFile) -> Result<InputParts, Diagnostic> {
+pub(super) fn input_parts(file: ModelFile, directory: &Path) -> Result<InputParts, Diagnostic> {
     let foreign = |name: &str| {
         let expected = "only fields for actions \"inputs\"";
         Diagnostic::at(format!("/{name}"), "a field for actions \"targets\"", expected)
@@ -45,7 +47,7 @@ pub(super) fn input_parts(file: ModelFile) -> Result<InputParts, Diagnostic> {
         resolution: file.partition.resolution.clone(),
         partition: partition(file.partition),
         noise,
-        task: Some(task(file.task)?),
+        task: Some(task(file.task, file.regions, directory)?),
         initial_state: file.initial_state,
     })
 }

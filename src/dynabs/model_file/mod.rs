@@ -7,6 +7,8 @@ mod input_parts;
 mod named;
 mod parts;
 mod schema;
+mod task_fields;
+mod task_parts;
 
 pub use document::{Document, SetArgument};
 pub use parts::StatedProblem;

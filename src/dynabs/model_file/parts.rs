@@ -3,17 +3,15 @@
 use super::Document;
 use super::dynamics::DynamicsSpec;
 use super::fields::{
-    ActionsSpec, GaussianSpec, GridSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec, RegionSpec,
-    SafetyCheck, SampleKindSpec, SamplesSpec, SetSpec, StabilizerSpec, TargetsSpec, TaskKind, TaskSpec,
-    UnsafeSpec,
+    ActionsSpec, GaussianSpec, GridSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec, SampleKindSpec,
+    SamplesSpec, SetSpec, StabilizerSpec, TargetsSpec,
 };
 use super::input_parts::input_parts;
+use super::task_parts::task;
 use crate::Diagnostic;
-use crate::guarantee::Safety;
 use crate::problem::{
-    DrawnNoise, Gain, GaussianNoise, Hazard, InputProblem, InputSet, LinearDynamics, LowerLayer, LqrWeights,
-    NoiseSource, Partition, Probabilities, Problem, ProblemBuilder, RegionBox, SampleKind, SamplesFile,
-    TargetChoice, Task,
+    DrawnNoise, Gain, GaussianNoise, InputProblem, InputSet, LinearDynamics, LowerLayer, LqrWeights,
+    NoiseSource, Partition, Probabilities, Problem, ProblemBuilder, SampleKind, SamplesFile, TargetChoice,
 };
 use std::path::Path;
 
@@ -33,9 +31,8 @@ impl Document {
     /// A [`Diagnostic`] for the first mistake found.
     pub fn stated(&self) -> Result<StatedProblem, Diagnostic> {
         let stated = self.model().and_then(|file| match actions(&file) {
-            ActionsSpec::Inputs => {
-                InputProblem::new(input_parts(file)?).map(|problem| StatedProblem::Inputs(Box::new(problem)))
-            }
+            ActionsSpec::Inputs => InputProblem::new(input_parts(file, &self.directory)?)
+                .map(|problem| StatedProblem::Inputs(Box::new(problem))),
             ActionsSpec::Targets => {
                 let problem = builder(file, &self.directory)?.build();
                 problem.map(|problem| StatedProblem::Targets(Box::new(problem)))
@@ -92,7 +89,7 @@ fn builder(file: ModelFile, directory: &Path) -> Result<ProblemBuilder, Diagnost
         .group_steps(group_steps)
         .partition(partition(file.partition))
         .targets(targets(file.targets))
-        .task(task(file.task)?)
+        .task(task(file.task, file.regions, directory)?)
         .probabilities(probabilities(&file.probabilities)?)
         .noise(noise(file.noise, directory)?);
     if let Some(state) = file.initial_state {
@@ -162,43 +159,6 @@ fn targets(spec: TargetsSpec) -> TargetChoice {
         TargetsSpec::Grid(grid) => TargetChoice::Grid(partition(grid)),
         TargetsSpec::Points(points) => TargetChoice::Points(points),
     }
-}
-
-pub(super) fn task(spec: TaskSpec) -> Result<Task, Diagnostic> {
-    let foreign = |field: &str, kind: &str| {
-        let expected = format!("only fields of a task of type \"{kind}\"");
-        Err(Diagnostic::at(format!("/task/{field}"), "a field of the other type", expected))
-    };
-    let wanted = match spec {
-        TaskSpec { kind: TaskKind::Reach, safe: Some(_), .. } => return foreign("safe", "reach"),
-        TaskSpec { kind: TaskKind::Stay, goal: Some(_), .. } => return foreign("goal", "stay"),
-        TaskSpec { kind: TaskKind::Reach, goal: None, .. } => {
-            return Err(Diagnostic::at("/task", "no field `goal`", "the field `goal`"));
-        }
-        TaskSpec { kind: TaskKind::Reach, goal: Some(goal), .. } => Task::reach(boxes(goal)),
-        TaskSpec { kind: TaskKind::Stay, safe, .. } => Task::stay(boxes(safe.unwrap_or_default())),
-    };
-    let hazard = |spec| match spec {
-        UnsafeSpec::Outside => Hazard::Outside,
-        UnsafeSpec::Region(spec) => Hazard::Box(region_box(spec)),
-    };
-    let check = spec.check.map(|check| match check {
-        SafetyCheck::EveryStep => Safety::EveryStep,
-        SafetyCheck::Grouped => Safety::GroupedInstants,
-    });
-    let unsafe_ = spec.unsafe_.into_iter().map(hazard).collect();
-    Ok(Task { unsafe_, horizon: spec.horizon, threshold: spec.threshold, check, ..wanted })
-}
-
-fn boxes(specs: Vec<RegionSpec>) -> Vec<RegionBox> {
-    specs.into_iter().map(region_box).collect()
-}
-
-fn region_box(spec: RegionSpec) -> RegionBox {
-    let side = |values: Vec<Option<f64>>, unbounded| {
-        values.into_iter().map(|x: Option<f64>| x.unwrap_or(unbounded)).collect()
-    };
-    RegionBox { lower: side(spec.lower, f64::NEG_INFINITY), upper: side(spec.upper, f64::INFINITY) }
 }
 
 fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {

@@ -27,22 +27,31 @@ impl CellLabels {
     pub fn new(grid: &Grid, goal: &[Region], unsafe_: &[Region]) -> Self {
         let snap = Snap::new(grid, goal.iter().chain(unsafe_));
         let (goal, unsafe_) = (snap.boxes(goal), snap.boxes(unsafe_));
-        let mut cell = RankBox { lower: vec![0; grid.dimension()], upper: vec![0; grid.dimension()] };
-        let kinds = (0..grid.num_cells()).map(|id| {
-            for j in 0..grid.dimension() {
-                let i = grid.coordinate(CellId(id), j) as usize;
-                cell.lower[j] = snap.below[j][i];
-                cell.upper[j] = snap.above[j][i + 1];
-            }
-            if unsafe_.iter().any(|region| region.meets(&cell)) {
+        let kind = |cell: &RankBox| {
+            if unsafe_.iter().any(|region| region.meets(cell)) {
                 CellKind::Unsafe
             } else if cell.covered_by(&goal) {
                 CellKind::Goal
             } else {
                 CellKind::Ordinary
             }
-        });
-        Self { kinds: kinds.collect() }
+        };
+        // Few cells differ in where they lie among the faces: the kinds of those are the kinds of all.
+        let axes: Vec<AxisClasses> = (0..grid.dimension()).map(|j| snap.classes(j)).collect();
+        let count = axes.iter().map(|axis| axis.sides.len()).product();
+        let mut cell = RankBox { lower: vec![0; grid.dimension()], upper: vec![0; grid.dimension()] };
+        let of_classes: Vec<CellKind> = (0..count)
+            .map(|mut id: usize| {
+                for (j, axis) in axes.iter().enumerate().rev() {
+                    (cell.lower[j], cell.upper[j]) = axis.sides[id % axis.sides.len()];
+                    id /= axis.sides.len();
+                }
+                kind(&cell)
+            })
+            .collect();
+        let mut kinds = Vec::with_capacity(grid.num_cells() as usize);
+        fill(&axes, 0, &of_classes, &mut kinds);
+        Self { kinds }
     }
 
     /// Labels the cells of a task that is to stay somewhere: `Unsafe` unless contained in the union of `safe`, which
@@ -56,6 +65,11 @@ impl CellLabels {
             }
         }
         labels
+    }
+
+    /// These kinds, one per cell.
+    pub fn from_kinds(kinds: Vec<CellKind>) -> Self {
+        Self { kinds }
     }
 
     /// The kind of one cell.
@@ -115,6 +129,31 @@ impl RankBox {
     }
 }
 
+/// Where the cells of one dimension lie among the faces of all regions.
+struct AxisClasses {
+    /// The ranks of the two sides, of every class.
+    sides: Vec<(u32, u32)>,
+    /// How many cells in a row belong to which class.
+    runs: Vec<(usize, usize)>,
+}
+
+/// Appends the kinds of all cells, row-major, the classes of the dimensions before the first of `axes` being `class`.
+fn fill(axes: &[AxisClasses], class: usize, of_classes: &[CellKind], kinds: &mut Vec<CellKind>) {
+    let Some((axis, rest)) = axes.split_first() else { return };
+    for &(cells, own) in &axis.runs {
+        let class = class * axis.sides.len() + own;
+        if rest.is_empty() {
+            kinds.resize(kinds.len() + cells, of_classes[class]);
+            continue;
+        }
+        // The cells of a run are alike: what follows from the first one is copied.
+        let start = kinds.len();
+        fill(rest, class, of_classes, kinds);
+        let end = kinds.len();
+        (1..cells).for_each(|_| kinds.extend_from_within(start..end));
+    }
+}
+
 /// Replaces coordinates by ranks among the faces of the regions.
 ///
 /// Between two neighbouring region faces nothing changes, so a cell may be snapped outwards to them
@@ -148,6 +187,21 @@ impl Snap {
             snap.above.push(above);
         }
         snap
+    }
+
+    fn classes(&self, j: usize) -> AxisClasses {
+        let mut sides: Vec<(u32, u32)> = vec![];
+        let mut runs: Vec<(usize, usize)> = vec![];
+        for (&below, &above) in self.below[j].iter().zip(&self.above[j][1..]) {
+            if sides.last() == Some(&(below, above)) {
+                runs.iter_mut().last().into_iter().for_each(|run| run.0 += 1);
+            } else {
+                // Ranks do not decrease, so a class does not come back.
+                runs.push((1, sides.len()));
+                sides.push((below, above));
+            }
+        }
+        AxisClasses { sides, runs }
     }
 
     fn boxes(&self, regions: &[Region]) -> Vec<RankBox> {

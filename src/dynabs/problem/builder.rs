@@ -117,11 +117,10 @@ impl ProblemBuilder {
         let grid = given(self.partition, "partition")?.grid("/partition", n)?;
         let actions = regions::actions("/targets", &self.targets, n)?;
         let wanted = given(self.task, "task")?;
-        if matches!(wanted.aim, Aim::Stay { .. }) {
-            let found = "a task to stay somewhere, for actions that steer to targets";
-            return Err(Diagnostic::at("/task/type", found, "a task to reach a goal").remedy(
-                "With \"actions\": \"inputs\" and known noise the controller can be asked to stay somewhere.",
-            ));
+        if !matches!(wanted.aim, Aim::Reach { .. }) {
+            let found = "a task other than to reach a goal, for actions that steer to targets";
+            return Err(Diagnostic::at("/task/type", found, "a task to reach a goal")
+                .remedy("With \"actions\": \"inputs\" and known noise there are other tasks."));
         }
         let task = task::CheckedTask::new(&wanted, &grid, group_steps)?;
         let initial = self.initial_state.map(|state| initial(state, &grid)).transpose()?;
@@ -143,6 +142,7 @@ impl ProblemBuilder {
             stabilizer,
             grid,
             labels: task.labels,
+            cell_task: task.cell_task,
             objective: task.objective,
             unsafe_: task.unsafe_,
             outside_is_unsafe: task.outside_is_unsafe,

@@ -11,6 +11,7 @@ use crate::geometry::Polytope;
 use crate::noise::known::Distribution;
 use crate::partition::{CellId, CellLabels, Grid, Region};
 use crate::system::{Feedback, Mode};
+use crate::task::CellTask;
 use crate::{Diagnostic, Warning};
 use imdp::numeric::Rational;
 use imdp::property::Probability;
@@ -64,6 +65,7 @@ pub struct InputProblem {
     feedback: Feedback,
     grid: Grid,
     labels: CellLabels,
+    cell_task: CellTask,
     resolution: Option<Vec<u32>>,
     noise: Vec<Option<Distribution>>,
     objective: Objective,
@@ -127,6 +129,7 @@ impl InputProblem {
             feedback,
             grid,
             labels: task.labels,
+            cell_task: task.cell_task,
             resolution,
             noise,
             objective: task.objective,
@@ -186,6 +189,11 @@ impl InputProblem {
     /// The noise of each coordinate.
     pub fn noise(&self) -> &[Option<Distribution>] {
         &self.noise
+    }
+
+    /// What the memory of the task becomes in each cell.
+    pub fn cell_task(&self) -> &CellTask {
+        &self.cell_task
     }
 
     /// What is wanted.

@@ -25,6 +25,7 @@
 //! # }
 //! ```
 
+mod automaton;
 mod builder;
 mod distribution;
 mod dynamics;
@@ -41,6 +42,7 @@ mod regions;
 mod task;
 mod values;
 
+pub use automaton::{Leg, Logic, RegionParts, ShapeParts};
 pub use builder::ProblemBuilder;
 pub use distribution::DistributionParts;
 pub use dynamics::{Dynamics, GroupSteps, LinearDynamics};

@@ -4,9 +4,9 @@ use super::{Dynamics, InputSet, Probabilities, ProblemBuilder, SampledNoise, Sta
 use crate::Warning;
 use crate::geometry::Polytope;
 use crate::guarantee::Safety;
-use crate::landing::Aim;
 use crate::partition::{CellId, CellLabels, Grid, Region};
 use crate::system::LinearSystem;
+use crate::task::{Aim, AutomatonTask, CellTask};
 use imdp::numeric::Rational;
 use imdp::property::Probability;
 
@@ -22,6 +22,7 @@ pub struct Problem {
     pub(super) stabilizer: Option<Stabilizer>,
     pub(super) grid: Grid,
     pub(super) labels: CellLabels,
+    pub(super) cell_task: CellTask,
     pub(super) objective: Objective,
     pub(super) unsafe_: Vec<Region>,
     pub(super) outside_is_unsafe: bool,
@@ -55,14 +56,25 @@ pub enum Objective {
         /// The region, a union of boxes; empty for the whole partition.
         safe: Vec<Region>,
     },
+    /// What an automaton over regions accepts.
+    Automaton(Box<AutomatonTask>),
 }
 
 impl Objective {
+    /// The task in words, if it is more than to reach or to keep something.
+    pub fn statement(&self) -> Option<String> {
+        match self {
+            Self::Reach { .. } | Self::Stay { .. } => None,
+            Self::Automaton(task) => Some(task.statement().to_owned()),
+        }
+    }
+
     /// Whether something is to be reached or to be kept.
     pub fn aim(&self) -> Aim {
         match self {
             Self::Reach { .. } => Aim::Reach,
             Self::Stay { .. } => Aim::Stay,
+            Self::Automaton(task) => task.aim(),
         }
     }
 }
@@ -136,6 +148,11 @@ impl Problem {
         &self.labels
     }
 
+    /// What the memory of the task becomes in each cell.
+    pub fn cell_task(&self) -> &CellTask {
+        &self.cell_task
+    }
+
     /// What is wanted.
     pub fn objective(&self) -> &Objective {
         &self.objective
@@ -145,7 +162,7 @@ impl Problem {
     pub fn goal(&self) -> &[Region] {
         match &self.objective {
             Objective::Reach { goal } => goal,
-            Objective::Stay { .. } => &[],
+            Objective::Stay { .. } | Objective::Automaton(_) => &[],
         }
     }
 

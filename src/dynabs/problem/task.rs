@@ -1,12 +1,15 @@
 //! What the controller is to achieve, and what it makes of the cells.
 
+use super::automaton::{Leg, Logic, RegionParts, automaton, named_regions};
 use super::problem::Objective;
 use super::regions::{RegionBox, region, regions, widths};
 use super::{Probabilities, StepNoise};
 use crate::guarantee::Safety;
 use crate::memory::Need;
-use crate::partition::{CellKind, CellLabels, Grid, Region, first_overlap, near_misses};
+use crate::partition::{CellId, CellKind, CellLabels, Grid, Region, first_overlap, near_misses};
+use crate::task::{self, AutomatonTask, CellTask, NamedRegion, Shape};
 use crate::{Diagnostic, Warning};
+use imdp::automaton::Dfa;
 use imdp::property::Probability;
 
 /// What is wanted, where, within how many steps.
@@ -20,6 +23,8 @@ pub struct Task {
     pub horizon: Horizon,
     /// The probability that is wanted, if any.
     pub threshold: Option<f64>,
+    /// The regions that the task may speak of.
+    pub regions: Vec<RegionParts>,
     /// When, with grouped steps, the unsafe region must be avoided: by default at every step, if the samples are of steps.
     pub check: Option<Safety>,
 }
@@ -46,6 +51,30 @@ pub enum Aim {
         /// The boxes; empty for the whole partition.
         safe: Vec<RegionBox>,
     },
+    /// To be in a union of boxes after the last step.
+    ReachAt {
+        /// The boxes.
+        goal: Vec<RegionBox>,
+    },
+    /// To come to named regions one after the other.
+    Sequence {
+        /// What to come to and what to avoid on the way, in order.
+        legs: Vec<Leg>,
+    },
+    /// What a formula over named regions says.
+    Formula {
+        /// The formula.
+        text: String,
+        /// What its words are.
+        logic: Logic,
+    },
+    /// What a deterministic automaton over named regions accepts.
+    Automaton {
+        /// The name of the file.
+        file: String,
+        /// Its text, in the HOA format.
+        hoa: String,
+    },
 }
 
 /// A number of original steps.
@@ -65,6 +94,7 @@ impl Task {
             unsafe_: vec![],
             horizon: Horizon::Infinite,
             threshold: None,
+            regions: vec![],
             check: None,
         }
     }
@@ -72,6 +102,11 @@ impl Task {
     /// To stay in a union of boxes for ever; in the whole partition if there are none.
     pub fn stay(safe: Vec<RegionBox>) -> Self {
         Self { aim: Aim::Stay { safe }, ..Self::reach(vec![]) }
+    }
+
+    /// To satisfy a formula of linear temporal logic over these regions.
+    pub fn formula(text: impl Into<String>, logic: Logic, regions: Vec<RegionParts>) -> Self {
+        Self { aim: Aim::Formula { text: text.into(), logic }, regions, ..Self::reach(vec![]) }
     }
 
     /// Avoiding these boxes too.
@@ -116,6 +151,7 @@ pub(super) struct CheckedTask {
     pub(super) unsafe_: Vec<Region>,
     pub(super) outside_is_unsafe: bool,
     pub(super) labels: CellLabels,
+    pub(super) cell_task: CellTask,
     /// In grouped steps.
     pub(super) horizon: Option<u64>,
     pub(super) threshold: Option<Probability>,
@@ -137,22 +173,35 @@ impl CheckedTask {
             }
         }
         Need::of_cells(grid).check().map_err(|error| Diagnostic::from(&error))?;
-        let (objective, labels) = match &task.aim {
-            Aim::Reach { goal } => reach(goal, (&unsafe_, &places), grid)?,
-            Aim::Stay { safe } => stay(safe, &unsafe_, grid)?,
+        let objective = match &task.aim {
+            Aim::Reach { goal } => Objective::Reach { goal: reach(goal, (&unsafe_, &places), grid)? },
+            Aim::Stay { safe } => Objective::Stay { safe: stay(safe, &unsafe_, grid)? },
+            Aim::ReachAt { goal } => {
+                let goal = reach(goal, (&unsafe_, &places), grid)?;
+                Objective::Automaton(Box::new(at_step(goal, &unsafe_, task.horizon)?))
+            }
+            over_regions => {
+                let named = named_regions(&task.regions, n)?;
+                Objective::Automaton(Box::new(automaton(over_regions, task.horizon, &named, &unsafe_)?))
+            }
         };
         let mut warnings = Vec::new();
         let wanted = match &objective {
-            Objective::Reach { goal } => ("goal", goal),
-            Objective::Stay { safe } => ("safe", safe),
+            Objective::Reach { goal } => vec![("/task/goal".to_owned(), goal.clone())],
+            Objective::Stay { safe } => vec![("/task/safe".to_owned(), safe.clone())],
+            Objective::Automaton(task) => {
+                let regions = task.regions().iter().filter(|region| region.name != "unsafe");
+                regions.map(|region| (format!("/regions/{}", region.name), region.boxes())).collect()
+            }
         };
-        for (name, list) in [wanted, ("unsafe", &unsafe_)] {
-            let warning = |miss| Warning::NearMiss { list: name, miss };
-            warnings.extend(near_misses(grid, list).into_iter().map(warning));
+        for (list, regions) in wanted.into_iter().chain([("/task/unsafe".to_owned(), unsafe_.clone())]) {
+            let warning = |miss| Warning::NearMiss { list: list.clone(), miss };
+            warnings.extend(near_misses(grid, &regions).into_iter().map(warning));
         }
+        let (labels, cell_task) = cell_task(&objective, &unsafe_, grid)?;
         let horizon = horizon(task.horizon, d, &mut warnings)?;
         let threshold = task.threshold.map(threshold).transpose()?;
-        Ok(Self { objective, unsafe_, outside_is_unsafe, labels, horizon, threshold, warnings })
+        Ok(Self { objective, unsafe_, outside_is_unsafe, labels, cell_task, horizon, threshold, warnings })
     }
 }
 
@@ -188,7 +237,7 @@ fn reach(
     goal: &[RegionBox],
     (unsafe_, places): (&[Region], &[usize]),
     grid: &Grid,
-) -> Result<(Objective, CellLabels), Diagnostic> {
+) -> Result<Vec<Region>, Diagnostic> {
     let goal = regions("/task/goal", goal, grid.dimension())?;
     if let Some((i, j)) = first_overlap(&goal, unsafe_) {
         let found = format!("box {i} overlaps /task/unsafe/{}", places[j]);
@@ -202,11 +251,11 @@ fn reach(
         return Err(Diagnostic::at("/task/goal", "a goal that contains no cell of the partition", expected)
             .remedy("Enlarge the goal, align its faces with the grid, or use more cells."));
     }
-    Ok((Objective::Reach { goal }, labels))
+    Ok(goal)
 }
 
 /// The region to stay in, which must contain a cell that is not unsafe.
-fn stay(safe: &[RegionBox], unsafe_: &[Region], grid: &Grid) -> Result<(Objective, CellLabels), Diagnostic> {
+fn stay(safe: &[RegionBox], unsafe_: &[Region], grid: &Grid) -> Result<Vec<Region>, Diagnostic> {
     let safe = regions("/task/safe", safe, grid.dimension())?;
     let labels = CellLabels::staying(grid, &safe, unsafe_);
     if labels.count(CellKind::Ordinary) == 0 {
@@ -218,7 +267,51 @@ fn stay(safe: &[RegionBox], unsafe_: &[Region], grid: &Grid) -> Result<(Objectiv
         )
         .remedy("Enlarge the region, align its faces with the grid, or use more cells."));
     }
-    Ok((Objective::Stay { safe }, labels))
+    Ok(safe)
+}
+
+/// To be in the goal after the last step.
+fn at_step(goal: Vec<Region>, unsafe_: &[Region], horizon: Horizon) -> Result<AutomatonTask, Diagnostic> {
+    let Horizon::Steps(steps) = horizon else {
+        return Err(Diagnostic::at("/task/horizon", "\"infinite\"", "the step at which to be in the goal"));
+    };
+    let boxes = |name: &str, regions: &[Region]| NamedRegion {
+        name: name.to_owned(),
+        shapes: regions.iter().cloned().map(Shape::Box).collect(),
+    };
+    // The last letter decides.
+    let dfa = Dfa::from_parts(1, 0, vec![0, 1, 0, 1], vec![false, true]);
+    let (dfa, mut regions) =
+        (if unsafe_.is_empty() { dfa } else { dfa.guarded() }, vec![boxes("goal", &goal)]);
+    if !unsafe_.is_empty() {
+        regions.push(boxes("unsafe", unsafe_));
+    }
+    Ok(AutomatonTask::new(&dfa, task::Aim::End, regions, format!("the state is in the goal at step {steps}")))
+}
+
+/// What an objective makes of the cells.
+fn cell_task(
+    objective: &Objective,
+    unsafe_: &[Region],
+    grid: &Grid,
+) -> Result<(CellLabels, CellTask), Diagnostic> {
+    let labels = match objective {
+        Objective::Reach { goal } => CellLabels::new(grid, goal, unsafe_),
+        Objective::Stay { safe } => CellLabels::staying(grid, safe, unsafe_),
+        Objective::Automaton(task) => {
+            let cells = CellTask::of_automaton(task, grid);
+            if task.aim() == task::Aim::Reach && !cells.can_be_done() {
+                let found = format!("a task that no run of cells fulfils: {}", task.statement());
+                let expected = "regions that contain whole cells, in an order in which they can be visited";
+                return Err(Diagnostic::at("/task", found, expected)
+                    .remedy("Enlarge the regions, align their faces with the grid, or use more cells."));
+            }
+            let kinds = (0..grid.num_cells()).map(|cell| cells.kind(CellId(cell))).collect();
+            return Ok((CellLabels::from_kinds(kinds), cells));
+        }
+    };
+    let task = CellTask::of_kinds(objective.aim(), labels.iter().map(|(_, kind)| kind));
+    Ok((labels, task))
 }
 
 fn horizon(horizon: Horizon, d: usize, warnings: &mut Vec<Warning>) -> Result<Option<u64>, Diagnostic> {

@@ -4,7 +4,7 @@ use super::material::Material;
 use super::numbers::{compact, subscripted};
 use super::palette::{FIRST_LIGHT_LEVEL, LEVELS, colour};
 use super::paths::class;
-use super::regions::sides;
+use super::sides::sides;
 use super::view::{Axis, View};
 use crate::partition::{CellId, CellKind, Region};
 use data_encoding::BASE64;

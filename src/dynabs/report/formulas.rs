@@ -3,7 +3,7 @@
 use super::markup::escape;
 use super::material::Material;
 use super::numbers::{short, subscripted, tuple};
-use super::regions::sides;
+use super::sides::sides;
 use crate::geometry::Polytope;
 use crate::linear_algebra::ExactMatrix;
 use crate::partition::Region;

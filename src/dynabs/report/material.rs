@@ -2,7 +2,6 @@
 
 use super::results::CrossChecks;
 use super::values::StepValues;
-use super::view::{Axis, View};
 use crate::controller::{Controller, Decision, Noise, Simulation, Tally, Trajectory};
 use crate::partition::{CellId, CellKind};
 use crate::problem::{Problem, StepNoise};
@@ -138,18 +137,6 @@ impl<'a> Material<'a> {
         match self.problem().group_steps() {
             1 => "step k".to_owned(),
             d => format!("grouped step k ({d} steps each)"),
-        }
-    }
-
-    /// What is shown at first, and on paper.
-    pub(super) fn first_view(&self) -> View {
-        let slice = match self.controller.cell(&self.start) {
-            Some(cell) => self.problem().grid().coordinates(cell),
-            None => vec![0; self.dimension()],
-        };
-        match self.dimension() {
-            1 => View { across: Axis::Time, up: 0, slice, step: 0 },
-            _ => View { across: Axis::State(0), up: 1, slice, step: 0 },
         }
     }
 

@@ -18,6 +18,7 @@ mod picked;
 mod regions;
 mod results;
 mod section;
+mod sides;
 mod tables;
 mod values;
 mod view;
@@ -41,7 +42,7 @@ pub struct Picture {
 
 /// The plots of the page, as files: the value function with vector field and runs, and its cross-section.
 pub fn pictures(material: &Material<'_>) -> Vec<Picture> {
-    let view = material.first_view();
+    let view = view::View::first(material);
     vec![
         Picture { name: "value", svg: heat_map(material, &view).standalone() },
         Picture { name: "section", svg: section(material, &view).standalone() },

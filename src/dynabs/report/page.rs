@@ -6,6 +6,7 @@ use super::markup::{PLOT_STYLE, escape};
 use super::material::Material;
 use super::picked::facts;
 use super::section::section;
+use super::view::View;
 use super::{formulas, tables, words};
 use crate::rendered::ended;
 use askama::Template;
@@ -57,7 +58,7 @@ struct Page {
 /// [`ReportError`] if the embedded template is broken.
 pub fn page(material: &Material<'_>) -> Result<String, ReportError> {
     let (run, problem) = (material.run, material.problem());
-    let view = material.first_view();
+    let view = View::first(material);
     let embedded = embed(material, &view);
     let description = run.document.description().unwrap_or_default();
     let left_out = match &embedded.left_out[..] {

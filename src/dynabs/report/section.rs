@@ -4,7 +4,8 @@ use super::frame::Frame;
 use super::markup::{Plot, group};
 use super::material::Material;
 use super::numbers::{coordinate, subscripted};
-use super::regions::{hatch, sides};
+use super::regions::hatch;
+use super::sides::sides;
 use super::view::{Axis, View};
 use crate::partition::Region;
 

@@ -2,7 +2,7 @@
 
 use super::material::Material;
 use super::numbers::{short, subscripted};
-use super::regions::sides;
+use super::sides::sides;
 use crate::partition::{CellId, Region};
 
 /// The most squares along one side of a heat map.
@@ -29,6 +29,18 @@ pub(super) struct View {
 }
 
 impl View {
+    /// What is shown at first, and on paper: the plane through the start, or the only dimension over time.
+    pub(super) fn first(material: &Material<'_>) -> Self {
+        let slice = match material.controller.cell(&material.start) {
+            Some(cell) => material.problem().grid().coordinates(cell),
+            None => vec![0; material.dimension()],
+        };
+        match material.dimension() {
+            1 => Self { across: Axis::Time, up: 0, slice, step: 0 },
+            _ => Self { across: Axis::State(0), up: 1, slice, step: 0 },
+        }
+    }
+
     /// The cell at column `i` and row `j`, and the step that it is looked at.
     pub(super) fn cell(&self, material: &Material<'_>, i: u32, j: u32) -> (CellId, usize) {
         let mut coordinates = self.slice.clone();

@@ -12,6 +12,8 @@ pub(super) const PROBLEM: &str = "problem.json";
 /// The name of the noise samples in a run's directory.
 pub(super) const NOISE: &str = "noise.csv";
 
+/// The name of the native model in a run's directory.
+pub const NATIVE_MODEL: &str = "model.dynabs";
 /// The name of the solution in a run's directory.
 pub(super) const SOLUTION: &str = "solution.bin";
 

@@ -1,7 +1,7 @@
 //! The files of a run, held against its manifest.
 
-use super::OpenError;
 use super::appearance::{MANIFEST, settle};
+use super::error::OpenError;
 use super::manifest::{Manifest, OutputFile};
 use imdp::files;
 use imdp::formats::{sha256_hex, sha256_of_file};

@@ -1,21 +1,23 @@
 //! Runs of problems whose actions are inputs: written, and opened again.
 
 use super::RunFiles;
-use super::appearance::PROBLEM;
+use super::appearance::{NATIVE_MODEL, PROBLEM};
+use super::error::OpenError;
 use super::manifest::{GroupedHorizon, InputFile, Manifest};
-use super::open::{OpenError, problem_document};
+use super::open::problem_document;
 use super::staging::{RunDirectoryError, Staging};
 use super::write::WriteOptions;
 use crate::abstraction::inputs::InputAbstraction;
 use crate::guarantee::{Event, Evidence, Guarantee};
 use crate::landing::{LandingModel, LandingSolution};
 use crate::model_file::{Document, StatedProblem};
-use crate::problem::InputProblem;
+use crate::problem::{InputProblem, Objective};
 use imdp::formats::umb::Compression;
 use imdp::formats::{Format, ModelWriter, native, sha256_hex};
 use imdp::progress::Progress;
 use imdp::property::{Probability, Resolution};
 use imdp::solver::SolverOptions;
+use serde_json::Value;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -129,10 +131,14 @@ pub fn write_input_run(
         manifest.transitions = size.transitions;
         manifest.rows = size.rows;
         manifest.row_entries = size.entries;
-        manifest.initial_model_state = problem.initial_cell().map(|cell| of_cell[cell.index()]);
+        manifest.initial_model_state =
+            problem.initial_cell().and_then(|cell| match of_cell[cell.index()][..] {
+                [state] => Some(state),
+                _ => None,
+            });
         for format in Format::ALL.into_iter().filter(|format| options.formats.contains(format)) {
             if format == Format::Native {
-                staging.write(super::NATIVE_MODEL, |out| native::write(&model, out))?;
+                staging.write(NATIVE_MODEL, |out| native::write(&model, out))?;
                 continue;
             }
             let writer = ModelWriter::new(&model, format, Compression::Gzip)?;
@@ -147,8 +153,19 @@ pub fn write_input_run(
                 .try_for_each(|resolution| writeln!(out, "{}", abstraction.property(resolution)))
         })?;
     }
-    staging.write(PROBLEM, |out| writeln!(out, "{:#}", document.value))?;
+    let value = with_automaton(document.value.clone(), problem.objective());
+    staging.write(PROBLEM, |out| writeln!(out, "{value:#}"))?;
     manifest.outputs = staging.files().to_vec();
     staging.commit(&manifest)?;
     Ok(manifest)
+}
+
+/// A model file that has the text of its automaton in itself.
+pub(super) fn with_automaton(mut value: Value, objective: &Objective) -> Value {
+    if let Objective::Automaton(task) = objective
+        && let (Some(text), Some(field)) = (task.source(), value.pointer_mut("/task/automaton"))
+    {
+        *field = serde_json::json!({"hoa": text});
+    }
+    value
 }

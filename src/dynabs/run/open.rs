@@ -1,23 +1,20 @@
 //! A run opened again, with everything that it knows.
 
-use super::appearance::{NOISE, PROBLEM};
+use super::appearance::{NATIVE_MODEL, NOISE, PROBLEM};
+use super::error::OpenError;
 use super::files::RunFiles;
 use super::manifest::Manifest;
 use super::solution::{solution_options, stored};
-use super::write::NATIVE_MODEL;
-use crate::Diagnostic;
-use crate::abstraction::{Abstraction, AbstractionError};
+use crate::abstraction::Abstraction;
 use crate::model_file::Document;
 use crate::problem::Problem;
 use imdp::files::steady;
-use imdp::formats::native::{self, NativeError};
+use imdp::formats::native;
 use imdp::formats::sha256_hex;
 use imdp::progress::Progress;
 use imdp::property::Property;
-use imdp::solution_file::SolutionFileError;
 use imdp::solver::{Answer, AnswerError, Solution, SolverOptions};
 use serde_json::Value;
-use std::io;
 use std::path::{Path, PathBuf};
 
 /// A directory written by `dynabs-compile`: problem, model and manifest, known to belong together.
@@ -60,88 +57,6 @@ pub struct Run {
     pub abstraction: Abstraction,
     /// The solution of the task, if it was solved when the run was written.
     solution: Option<Solution>,
-}
-
-/// Why a directory is no run that can be used.
-#[derive(Debug, thiserror::Error)]
-pub enum OpenError {
-    /// It was not written by `dynabs-compile`.
-    #[error("{path}: found {found}; expected a directory written by dynabs-compile")]
-    NoRun {
-        /// The path.
-        path: String,
-        /// What is there.
-        found: String,
-    },
-    /// A file is not the one that was written.
-    #[error(
-        "{path}: found other bytes than the manifest's hash is of; expected the file as it was written\n  Compile the model again."
-    )]
-    Changed {
-        /// The path of the file.
-        path: String,
-    },
-    /// The problem names a file elsewhere.
-    #[error(
-        "{path}: found the file \"{found}\"; expected \"noise.csv\", for a run refers to nothing outside of its directory\n  Compile the model again."
-    )]
-    ForeignFile {
-        /// The path of the problem.
-        path: String,
-        /// The file that it names.
-        found: String,
-    },
-    /// The model was pruned.
-    #[error(
-        "{path}: found a pruned model; expected the whole one, whose actions are compared with the law\n  Compile it without --prune: the value and the policy are the same."
-    )]
-    Pruned {
-        /// The directory.
-        path: String,
-    },
-    /// The system does not let us read a file.
-    #[error("{path}: {error}")]
-    Io {
-        /// The path of the file.
-        path: String,
-        /// What the system said.
-        error: io::Error,
-    },
-    /// The problem is not one.
-    #[error(transparent)]
-    Problem(#[from] Diagnostic),
-    /// The native model cannot be read.
-    #[error("{path}: {error}")]
-    Model {
-        /// The path of the model.
-        path: String,
-        /// What is wrong with it.
-        error: NativeError,
-    },
-    /// The solution cannot be read.
-    #[error("{path}: {error}\n  Compile the model again.")]
-    Solution {
-        /// The path of the solution.
-        path: String,
-        /// What is wrong with it.
-        error: SolutionFileError,
-    },
-    /// A problem whose actions are inputs has no abstraction any more.
-    #[error("{path}: {error}")]
-    Inputs {
-        /// The directory.
-        path: String,
-        /// Why.
-        error: Box<crate::abstraction::inputs::InputsError>,
-    },
-    /// Problem and model do not fit.
-    #[error("{path}: {error}\n  Compile the model again with this version of dynabs.")]
-    Abstraction {
-        /// The directory.
-        path: String,
-        /// What does not fit.
-        error: AbstractionError,
-    },
 }
 
 impl Run {

@@ -1,9 +1,10 @@
 //! A run directory as one side of a comparison.
 
 use super::appearance::PROBLEM;
+use super::error::OpenError;
 use super::files::RunFiles;
 use super::manifest::Manifest;
-use super::open::{OpenError, problem_document};
+use super::open::problem_document;
 use crate::Diagnostic;
 use crate::abstraction::{AbstractionError, compile};
 use crate::model_file::Document;

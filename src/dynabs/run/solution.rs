@@ -1,9 +1,8 @@
 //! The solution that a run holds, and what is wanted of one.
 
-use super::appearance::SOLUTION;
+use super::appearance::{NATIVE_MODEL, SOLUTION};
+use super::error::OpenError;
 use super::files::RunFiles;
-use super::open::OpenError;
-use super::write::NATIVE_MODEL;
 use crate::problem::Problem;
 use imdp::model::IntervalMdp;
 use imdp::property::Property;

@@ -1,6 +1,6 @@
 //! Writing all files of a run.
 
-use super::appearance::{NOISE, PROBLEM, SOLUTION};
+use super::appearance::{NATIVE_MODEL, NOISE, PROBLEM, SOLUTION};
 use super::manifest::Manifest;
 use super::row_states::RowStatesReport;
 use super::solution::is_final;
@@ -29,9 +29,6 @@ pub struct WriteOptions<'a> {
     /// The solution of the task, if it is known: with its policy it is kept, so that nobody need solve again.
     pub solution: Option<&'a Solution>,
 }
-
-/// The name of the native model in a run's directory.
-pub const NATIVE_MODEL: &str = "model.dynabs";
 
 /// Writes the directory `target`: the model in the formats asked for, the native model, the property, the problem, the samples, the manifest.
 ///

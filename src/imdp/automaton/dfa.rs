@@ -125,6 +125,24 @@ impl Dfa {
         met
     }
 
+    /// The automaton with one more proposition, the last one, which must not hold before the word is decided.
+    #[must_use]
+    pub fn guarded(&self) -> Self {
+        let sink = self.num_states();
+        let next = (0..sink).flat_map(|state| {
+            let free = (0..self.letters()).map(move |letter| self.step(state, letter));
+            free.chain((0..self.letters()).map(move |_| sink))
+        });
+        let mut accepting = self.accepting.clone();
+        accepting.push(false);
+        Self {
+            propositions: self.propositions + 1,
+            start: self.start,
+            next: next.chain((0..2 * self.letters()).map(|_| sink)).collect(),
+            accepting,
+        }
+    }
+
     /// The smallest automaton that decides the same words for this aim, its states in the order in which words meet them.
     ///
     /// What comes after the decision does not matter: accepting states of [`Aim::Reach`] and rejecting ones of
@@ -208,6 +226,14 @@ mod tests {
         assert_eq!(last, Dfa::from_parts(1, 0, vec![0, 1, 0, 0], vec![false, true]));
         let reach = doubled().minimal(Aim::Reach);
         assert_eq!(reach, Dfa::from_parts(1, 0, vec![0, 1, 1, 1], vec![false, true]));
+    }
+
+    #[test]
+    fn guards_reject_until_the_word_is_decided() {
+        let guarded = doubled().guarded().minimal(Aim::Reach);
+        let (reached, lost) = (guarded.step(0, 0b01), guarded.step(0, 0b11));
+        assert!(guarded.accepts(reached) && guarded.step(reached, 0b10) == reached);
+        assert!(!guarded.accepts(lost) && guarded.is_sink(lost) && guarded.step(0, 0b10) == lost);
     }
 
     #[test]

@@ -191,3 +191,19 @@ fn products_keep_decimals_to_the_last_digit() {
     let evaluation = Evaluation::new(&model, &again, None, &SolverOptions::default()).unwrap();
     assert_eq!(evaluation.bounds(StateId(0)), Some((0.0, 0.0)));
 }
+
+/// A state whose first choice keeps it in a component must not lose what its second one reaches there.
+#[test]
+fn components_are_those_of_all_choices() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("m.tra");
+    let rows = "0 0 0 [0.5,0.6] stay\n0 0 1 [0.4,0.5] stay\n0 1 1 [0.1,0.4] go\n0 1 2 [0.6,0.9] go\n1 0 0 [1,1] back\n2 0 0 [1,1] back\n";
+    std::fs::write(&path, format!("3 4 6\n{rows}")).unwrap();
+    std::fs::write(path.with_extension("lab"), "0=\"init\" 1=\"deadlock\" 2=\"goal\"\n0: 0\n2: 2\n").unwrap();
+    let model = prism::import(&path, None, Some(&path.with_extension("lab"))).unwrap().model;
+    for (resolution, value) in [("maxmin", 1.0), ("maxmax", 1.0), ("minmin", 0.0), ("minmax", 0.0)] {
+        let again = compound(&format!("P{resolution}=? [ G (F \"goal\") ]"));
+        let evaluation = Evaluation::new(&model, &again, None, &SolverOptions::default()).unwrap();
+        assert_eq!(evaluation.bounds(StateId::from_index(0)), Some((value, value)), "{resolution}");
+    }
+}

@@ -73,8 +73,9 @@ fn split(model: &IntervalMdp, set: &StateSet, nature: Direction) -> Vec<StateSet
     let mut has_choice = StateSet::with_capacity(model.num_states());
     for state in set.ones() {
         let is_final = model.choices().ranges(StateId::from_index(state)).is_empty();
-        has_choice
-            .set(state, is_final || model.choices().rows(StateId::from_index(state)).any(&mut stays_in));
+        // Every choice is looked at, for each has edges of its own.
+        let stay = model.choices().rows(StateId::from_index(state)).filter(|&row| stays_in(row)).count();
+        has_choice.set(state, is_final || stay > 0);
     }
     let states = model.num_states();
     let roots = has_choice.ones().collect::<Vec<_>>();

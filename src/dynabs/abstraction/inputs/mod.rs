@@ -6,11 +6,12 @@
 mod resolution;
 mod tables;
 
-use crate::landing::{Aim, Axis, Images, Landing, LandingError, Layout, Question, occurring};
+use crate::landing::{Axis, Images, Landing, LandingError, Layout, Question, occurring};
 use crate::noise::known::Distribution;
-use crate::partition::{CellId, CellKind};
+use crate::partition::CellId;
 use crate::problem::InputProblem;
 use crate::system::{ImageError, ImageMap, Lattice};
+use crate::task::{Aim, CellTask};
 use imdp::model::{MemoryError, require_memory};
 use imdp::property::{PathFormula, Property, Resolution, StateFormula};
 use std::time::{Duration, Instant};
@@ -25,8 +26,7 @@ pub struct InputAbstraction {
     landing: Landing,
     images: Images,
     open: Vec<u32>,
-    goal: Vec<bool>,
-    aim: Aim,
+    task: CellTask,
     steps: Option<u64>,
     /// How many sub-cells a cell has, by coordinate.
     pub resolution: Vec<u32>,
@@ -74,9 +74,9 @@ impl InputAbstraction {
         let tables = Tables::new(grid, &images, inputs.len())?;
         let tabulated = start.elapsed();
 
-        let kinds = problem.labels();
+        let task = problem.cell_task();
         let ordinary: Vec<u32> =
-            kinds.iter().filter(|(_, kind)| *kind == CellKind::Ordinary).map(|(cell, _)| cell.0).collect();
+            (0..grid.num_cells()).filter(|&cell| !task.open(cell as usize).is_empty()).collect();
         let occurs = occurring(&tables, &ordinary, grid.dimension());
         let extent: Vec<_> = (0..grid.dimension()).map(|j| tables.extent(j, &occurs[j])).collect();
         let axis = |j: usize| {
@@ -101,16 +101,14 @@ impl InputAbstraction {
         )?;
         let images = Images::new(&tables, &ordinary, layout);
         let open = images.acting();
-        let aim = problem.objective().aim();
         let phases = vec![("images", tabulated), ("landing", start.elapsed() - tabulated)];
         Ok(Self {
             blocked: ordinary.len() - open.len(),
-            goal: kinds.iter().map(|(_, kind)| kind == CellKind::Goal).collect(),
+            task: task.clone(),
             steps: problem.horizon(),
             landing,
             images,
             open,
-            aim,
             resolution,
             phases,
         })
@@ -118,8 +116,8 @@ impl InputAbstraction {
 
     /// The task on the lattice.
     pub fn question(&self) -> Question<'_> {
-        let Self { landing, images, open, goal, aim, steps, .. } = self;
-        Question { landing, images, open, goal, aim: *aim, steps: *steps }
+        let Self { landing, images, open, task, steps, .. } = self;
+        Question { landing, images, open, task, steps: *steps }
     }
 
     /// The number of pairs of a cell and an input that is enabled in it.
@@ -129,7 +127,7 @@ impl InputAbstraction {
 
     /// How many steps of the model are one of the system.
     pub fn micro_steps(&self) -> u64 {
-        self.landing.micro_steps()
+        self.question().micro_steps()
     }
 
     /// The most mass of a component of the noise that is not listed.
@@ -139,15 +137,17 @@ impl InputAbstraction {
 
     /// Whether something could be decided in a cell but no input is enabled.
     pub fn is_blocked(&self, cell: CellId) -> bool {
-        self.open.binary_search(&cell.0).is_err() && !self.goal[cell.index()]
+        self.open.binary_search(&cell.0).is_err() && !self.task.open(cell.index()).is_empty()
     }
 
     /// The task as a property of the model; with `Pmaxmin` its value is the lower bound, with `Pmaxmax` the upper one.
     pub fn property(&self, resolution: Resolution) -> Property {
         let steps = self.steps.map(|steps| steps.saturating_mul(self.micro_steps()));
         let safe = StateFormula::negation(StateFormula::label("failed"));
-        let path = match self.aim {
-            Aim::Reach => PathFormula::Until { left: safe, right: StateFormula::label("reached"), steps },
+        let path = match self.task.aim() {
+            Aim::Reach | Aim::End => {
+                PathFormula::Until { left: safe, right: StateFormula::label("reached"), steps }
+            }
             Aim::Stay => PathFormula::Globally { formula: safe, steps },
         };
         Property::value(resolution, path)
@@ -157,7 +157,7 @@ impl InputAbstraction {
     pub fn initial(&self, given: Option<CellId>) -> Vec<u32> {
         match given {
             Some(cell) => vec![cell.0],
-            None if self.open.is_empty() => (0..self.goal.len() as u32).collect(),
+            None if self.open.is_empty() => (0..self.task.num_cells() as u32).collect(),
             None => self.open.clone(),
         }
     }

@@ -1,7 +1,8 @@
 //! The events of cells, and their intervals.
 
 use super::super::action_counts::ActionCounts;
-use super::super::cell_counts::{CellBox, CellCounts, Count};
+use super::super::cell_box::CellBox;
+use super::super::cell_counts::{CellCounts, Count};
 use super::super::targets::Targets;
 use super::bounds::{BoundTable, Interval};
 use crate::problem::Problem;
@@ -41,7 +42,7 @@ pub(super) fn intervals(landing: &CellCounts, from: &[i32], cells: &BoundTable<u
 }
 
 /// The squared distances, in cells, of all cells of a table from one of them.
-fn squared_distances(table: &CellBox, from: &[i32]) -> Vec<u64> {
+pub(super) fn squared_distances(table: &CellBox, from: &[i32]) -> Vec<u64> {
     let mut squares = Vec::with_capacity(table.volume());
     table.for_each(|cell| {
         let along = |(&a, &b): (&i32, &i32)| (i64::from(a) - i64::from(b)).pow(2) as u64;

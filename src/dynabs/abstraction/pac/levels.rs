@@ -4,6 +4,7 @@
 //! share of the windows, which went from 50 to 52 after a look at the shipped ones.
 //! Weights are integers, so that they add up exactly.
 
+use super::super::room::{RUNGS, Room};
 use super::super::targets::Targets;
 use super::super::windows::WINDOWS;
 use crate::partition::{Grid, Region};
@@ -14,6 +15,19 @@ use std::collections::HashMap;
 
 /// How the budget is split, in hundredths.
 const SHARES: [(&str, i64); 4] = [("cells", 34), ("goal", 8), ("lost", 6), ("windows", 52)];
+
+/// The same where something is to be avoided at every step.
+const SHARES_OF_STEPS: [(&str, i64); 6] = [
+    ("cells", 28),
+    ("goal", 8),
+    ("lost", 6),
+    ("windows", 46),
+    ("cells with room in between", 9),
+    ("room in between", 3),
+];
+
+/// The weight of a side of a room without limit, where each rung has 1: most rooms have few limits.
+const NO_LIMIT: f64 = 16.0;
 
 /// The window of all samples, then those that leave out one sample more each: rows close to something lost are
 /// better off with a smaller window that stays clear of it.
@@ -40,10 +54,30 @@ pub(super) struct Levels {
     lower: LowerBounds,
     cells: Grant,
     goal: Grant,
+    /// Those of noise that stays in a room, if there are rooms.
+    rooms: Option<RoomLevels>,
     /// That of every action's event.
     pub(super) lost: f64,
     /// Those of the windows, the largest first.
     pub(super) windows: [f64; WINDOWS],
+}
+
+/// The levels of events about noise that stays in a room.
+struct RoomLevels {
+    /// Of how many sides.
+    sides: usize,
+    cells: Grant,
+    leaving: Grant,
+}
+
+impl RoomLevels {
+    /// The part of a level that a room has: all parts together are at most 1.
+    fn part(&self, room: Room) -> f64 {
+        let whole = NO_LIMIT + RUNGS.len() as f64;
+        let limits = room.num_limits().min(self.sides);
+        let factors = (0..self.sides).map(|side| if side < limits { 1.0 / whole } else { NO_LIMIT / whole });
+        factors.fold(1.0, |part, factor| (part * factor.next_down()).next_down())
+    }
 }
 
 impl LowerBounds {
@@ -71,33 +105,48 @@ impl LowerBounds {
 }
 
 impl Levels {
-    /// Spends the budget on the offsets in a box, given per dimension, from any of `origins` targets, and on an
-    /// event per action whose target is so far from the goal.
+    /// Spends the budget on the offsets in a box, given per dimension, from any of `origins` targets, on an
+    /// event per action whose target is so far from the goal, and on rooms with so many `sides`.
     pub(super) fn new(
         budget: &mut ConfidenceBudget,
         lower: LowerBounds,
+        sides: usize,
         offsets: &[(i64, i64)],
         origins: usize,
         goal_distances: &[u32],
     ) -> Result<Self, BudgetError> {
-        let mut grants = Vec::with_capacity(4);
+        let mut grants = Vec::with_capacity(6);
         let one = |weight: u64| BigInt::from(weight);
         let number: BigInt = offsets.iter().map(|(low, high)| BigInt::from(high - low + 1)).product();
         let goal: BigInt = goal_distances.iter().map(|&distance| BigInt::from(goal_weight(distance))).sum();
         let actions = BigInt::from(goal_distances.len());
+        let offset_weight = total_offset_weight(offsets) * origins;
+        let rooms = BigInt::from(RUNGS.len() + 1).pow(sides as u32);
         let families = [
-            (number * origins * lower.events(), total_offset_weight(offsets) * origins * 2 * lower.whole()),
+            (&number * origins * lower.events(), &offset_weight * 2 * lower.whole()),
             (&actions * lower.events(), goal * 100 * lower.whole()),
             (actions.clone(), actions),
             (one(WINDOW_WEIGHTS.len() as u64), one(WINDOW_WEIGHTS.iter().sum())),
+            (number * origins * &rooms, offset_weight),
+            (rooms, one(1)),
         ];
-        for ((family, share), (events, weight)) in SHARES.into_iter().zip(families) {
-            grants.push(budget.spend(family, &Rational::new(share.into(), 100.into()), &events, &weight)?);
+        let shares: &[(&str, i64)] = match lower {
+            LowerBounds::OfNoise => &SHARES,
+            LowerBounds::InsideWindows => &SHARES_OF_STEPS,
+        };
+        for ((family, share), (events, weight)) in shares.iter().zip(families) {
+            let share = Rational::new((*share).into(), 100.into());
+            grants.push(budget.spend(family, &share, &events, &weight)?);
         }
-        let [cells, goal, lost, windows]: [Grant; 4] =
-            grants.try_into().unwrap_or_else(|_| unreachable!("one grant per family"));
+        let mut grants = grants.into_iter();
+        let mut next = || grants.next().unwrap_or_else(|| unreachable!("a grant for every family"));
+        let [cells, goal, lost, windows] = [next(), next(), next(), next()];
+        let rooms = match lower {
+            LowerBounds::OfNoise => None,
+            LowerBounds::InsideWindows => Some(RoomLevels { sides, cells: next(), leaving: next() }),
+        };
         let windows = WINDOW_WEIGHTS.map(|weight| windows.level(weight));
-        Ok(Self { dimension: offsets.len(), lower, cells, goal, lost: lost.level(1), windows })
+        Ok(Self { dimension: offsets.len(), lower, cells, goal, rooms, lost: lost.level(1), windows })
     }
 
     /// What lower bounds are about.
@@ -109,6 +158,21 @@ impl Levels {
     pub(super) fn cell(&self, squared_distance: u64) -> EventLevels {
         let weight = offset_weight(self.dimension, squared_distance);
         self.of_event(&self.cells, weight, weight)
+    }
+
+    /// The level of the lower bound for the cell at a squared distance from the target's and noise that stays in a room.
+    pub(super) fn cell_in_room(&self, squared_distance: u64, room: Room) -> f64 {
+        let weight = offset_weight(self.dimension, squared_distance);
+        self.rooms
+            .as_ref()
+            .map_or(0.0, |rooms| (rooms.cells.level(weight) * rooms.part(room)).next_down().max(0.0))
+    }
+
+    /// The level of the upper bound for noise that leaves a room.
+    pub(super) fn leaving(&self, room: Room) -> f64 {
+        self.rooms
+            .as_ref()
+            .map_or(0.0, |rooms| (rooms.leaving.level(1) * rooms.part(room)).next_down().max(0.0))
     }
 
     /// The levels for a target at a distance, in cells, from the goal.
@@ -202,6 +266,25 @@ mod tests {
     use super::*;
 
     #[test]
+    fn all_rooms_together_cost_what_was_given() {
+        let mut budget = ConfidenceBudget::new(Rational::new(1.into(), 100.into()));
+        let levels = Levels::new(&mut budget, LowerBounds::InsideWindows, 4, &[(-1, 1); 2], 1, &[0]).unwrap();
+        let number = RUNGS.len() + 1;
+        let (mut cells, mut leaving) = (0.0, 0.0);
+        for code in 0..number.pow(4) {
+            let rung = |side: u32| (code / number.pow(side) % number).checked_sub(1);
+            let room = (0..4).filter_map(|side| Some((side, rung(side)?)));
+            let room = room.fold(Room::default(), |room, (side, rung)| room.limited(side as usize, rung));
+            leaving += levels.leaving(room);
+            for square in [0, 1, 1, 1, 1, 2, 2, 2, 2] {
+                cells += levels.cell_in_room(square, room);
+            }
+        }
+        assert!(0.8999e-3 < cells && cells <= 0.9e-3, "{cells}");
+        assert!(0.2999e-3 < leaving && leaving <= 0.3e-3, "{leaving}");
+    }
+
+    #[test]
     fn weights_are_numbers_however_far() {
         assert_eq!(inverse_power(f64::INFINITY, 3), 1);
         assert_eq!(offset_weight(40, u64::MAX), 1);
@@ -218,7 +301,7 @@ mod tests {
             let offsets = [(-3, 4), (-2, 2)];
             let distances = [0, 0, 1, 5];
             let mut budget = ConfidenceBudget::new(Rational::new(1.into(), 100.into()));
-            let levels = Levels::new(&mut budget, lower, &offsets, 1, &distances).unwrap();
+            let levels = Levels::new(&mut budget, lower, 4, &offsets, 1, &distances).unwrap();
             let events = lower.events() as usize;
             let cost = |event: EventLevels| event.upper + event.lower[..events].iter().sum::<f64>();
             let mut cells = 0.0;

@@ -58,6 +58,15 @@
 //! above. *Lost* are the cells in which the law has no action at all: those where windows leave none are known only from
 //! the samples, and are listed like any other. ∎
 //!
+//! **Room.** Where the boxes widened by the window do not keep clear, they may if the noise so far stays within limits on some
+//! sides ([`Room`](super::room::Room)): a box of few possible ones, fixed by the samples that decide about proportions. Such a
+//! cell has a row of its own for the target. Two more families are about the other samples, fixed given the first ones:
+//! - *cells with room*: `P(η ∈ C, ξ in the room) ≥ l` for every cell `C` and room, by Clopper–Pearson;
+//! - *room*: `P(ξ leaves the room) ≤ κ` for every room.
+//!
+//! With `p` as above, `l ≤ P(η ∈ C, ξ in the room) ≤ p ≤ u`, for goal cells together the sum of the `l`. To what is moved to
+//! `failed`, at most `ε` or `ε` and the bound of *lost*, comes what meets something in between, which leaves the room: `κ`. ∎
+//!
 //! A lower bound of `P(η ∈ C)` itself would not do: all of that mass could be noise that meets an obstacle on its way.
 //!
 //! Moving mass to `failed` can only lower the probability of a formula that is false from `failed` on, so
@@ -70,12 +79,16 @@ mod events;
 mod levels;
 mod preference;
 mod prepared;
+mod roomy;
 
 use super::AbstractionError;
 use super::action_counts::{ActionCounts, TargetPlacements};
-use super::cell_counts::{CellBox, CellCounts, RegionCounts};
+use super::cell_box::CellBox;
+use super::cell_counts::{CellCounts, RegionCounts};
+use super::enabling::Enabling;
 use super::footprint::need_of_rows;
 use super::outcomes::{Outcome, Outcomes};
+use super::rooms::Rooms;
 use super::states::{FAILED, REACHED, StateSpace};
 use super::stencil::{BoxCount, Ground, Hits, Special, Stencil, StencilRows};
 use super::targets::Targets;
@@ -92,6 +105,7 @@ use preference::Chooser;
 pub(super) use preference::Preference;
 pub(super) use prepared::Prepared;
 use rayon::prelude::*;
+use roomy::RoomBounds;
 use std::sync::Arc;
 
 /// The rows of all actions, with any of their windows.
@@ -109,8 +123,12 @@ pub(super) struct PacRows<'a> {
     /// By distance from the goal.
     goal: BoundTable<u32>,
     lost: BoundTable<()>,
-    /// Those of all actions, where coordinates count from the target: one per window, the largest first.
+    /// Those of all actions, where coordinates count from the target: one per window, the largest first, for noise with no
+    /// room to stay in and then for each room.
     stencils: Option<Arc<[Stencil]>>,
+    /// By number.
+    in_rooms: Vec<RoomBounds>,
+    rooms: &'a Rooms,
     prepared: Prepared,
 }
 
@@ -119,12 +137,13 @@ impl<'a> PacRows<'a> {
     pub(super) fn new(
         problem: &'a Problem,
         prepared: Prepared,
-        targets: &'a Targets,
+        enabling: &'a Enabling,
         placements: TargetPlacements<'a>,
         states: &StateSpace,
         outcomes: &Outcomes,
     ) -> Result<Self, AbstractionError> {
         let (grid, samples) = (problem.grid(), &problem.noise().samples);
+        let Enabling { targets, rooms, .. } = enabling;
         let levels = &prepared.levels;
         let inside_only = levels.lower_bounds() == LowerBounds::InsideWindows;
         let landings = ActionCounts::in_windows(samples, placements, prepared.windows.clone(), inside_only);
@@ -149,11 +168,21 @@ impl<'a> PacRows<'a> {
         // Only the upper bound is claimed and paid for: at level 0 the lower one is 0.
         let of_lost = EventLevels { lower: [0.0; WINDOWS], upper: levels.lost };
         let lost = BoundTable::new(lost_events, &size, |()| of_lost);
-        let stencils = landings.shared().map(|landing| {
-            let intervals = intervals(landing, &vec![0; grid.dimension()], &cells);
-            stencils(landing, landings.shared_windows(), &ground, &intervals, &prepared.unseen).into()
+        let shared = landings.shared().map(|landing| intervals(landing, &vec![0; grid.dimension()], &cells));
+        let between = &problem.noise().between;
+        let in_room = |&room| {
+            RoomBounds::new(room, &prepared, &landings, between, shared.as_deref().unwrap_or_default())
+        };
+        let in_rooms: Vec<RoomBounds> = rooms.distinct.par_iter().filter_map(in_room).collect();
+        let stencils = landings.shared().zip(shared.as_deref()).map(|(landing, shared)| {
+            let of_rooms = in_rooms.iter().map(|room| (&room.intervals[..], room.leaving));
+            let all = std::iter::once((shared, 0.0)).chain(of_rooms);
+            let windows = landings.shared_windows();
+            all.flat_map(|bounds| stencils(landing, windows, &ground, bounds, &prepared.unseen)).collect()
         });
         Ok(Self {
+            in_rooms,
+            rooms,
             problem,
             targets,
             landings,
@@ -215,13 +244,34 @@ impl<'a> PacRows<'a> {
         }
     }
 
+    /// The bounds of the room that an action needs, if it needs one.
+    fn room(&self, target: usize) -> Option<&RoomBounds> {
+        self.in_rooms.get(self.number_of_room(target)?)
+    }
+
+    fn number_of_room(&self, target: usize) -> Option<usize> {
+        let copy = target.checked_sub(self.targets.num_originals())?;
+        Some(self.rooms.of_copy[copy])
+    }
+
+    /// The number of windows.
+    fn windows(&self) -> usize {
+        self.prepared.unseen.len()
+    }
+
+    /// Where the stencils of an action are among those of all.
+    fn first_stencil(&self, target: usize) -> usize {
+        let room = self.number_of_room(target).filter(|&room| room < self.in_rooms.len());
+        room.map_or(0, |room| (1 + room) * self.windows())
+    }
+
     /// The stencils of an action whose coordinates are those of the grid.
     fn stencils_of(&self, target: usize) -> Vec<Stencil> {
         let grid = self.problem.grid();
         let (landing, windows) = self.landings.of(self.targets, target, grid, &mut vec![0; grid.dimension()]);
         let from = self.landings.target_cell(self.targets, target);
         let intervals = intervals(&landing, &from, &self.cells);
-        stencils(&landing, &windows, &self.ground, &intervals, &self.prepared.unseen)
+        stencils(&landing, &windows, &self.ground, (&intervals, 0.0), &self.prepared.unseen)
     }
 
     /// How much may fail if the row at `origin` is made with a window.
@@ -232,8 +282,10 @@ impl<'a> PacRows<'a> {
         let most = if is_clean {
             unseen
         } else {
-            (unseen + self.lost.get(self.regions[target].lost, ()).upper).next_up()
+            let original = self.targets.original(target);
+            (unseen + self.lost.get(self.regions[original].lost, ()).upper).next_up()
         };
+        let most = self.room(target).map_or(most, |room| (most + room.leaving).next_up());
         round_decimal_up(most, DIGITS).min(1.0)
     }
 
@@ -249,8 +301,12 @@ impl<'a> PacRows<'a> {
                     }
                 }
             });
-            let event = self.goal.get(self.regions[target].goal, self.prepared.goal_distances[target]);
-            (event.lower[window].max(round_decimal_down(of_cells, DIGITS)), event.upper)
+            let original = self.targets.original(target);
+            let event = self.goal.get(self.regions[original].goal, self.prepared.goal_distances[original]);
+            let of_cells = round_decimal_down(of_cells, DIGITS);
+            // The goal's own event is about noise with or without room.
+            let lower = if original == target { event.lower[window].max(of_cells) } else { of_cells };
+            (lower, event.upper)
         });
         Special { first: (0.0, self.failed(stencil, target, origin, window)), reached }
     }
@@ -263,18 +319,19 @@ impl<'a> PacRows<'a> {
     }
 }
 
-/// One stencil per window, in coordinates of the landing.
+/// One stencil per window, in coordinates of the landing, with these intervals and so much noise that leaves a room.
 fn stencils(
     landing: &CellCounts,
     windows: &[CellBox],
     ground: &Ground,
-    intervals: &[Interval],
+    (intervals, leaving): (&[Interval], f64),
     unseen: &[f64],
 ) -> Vec<Stencil> {
     let stencil = |(window, hull): (usize, &CellBox)| {
         let mut places = Vec::with_capacity(hull.volume());
         hull.for_each(|cell| places.push(landing.table().position(cell)));
-        let usual = (0.0, round_decimal_up(unseen[window], DIGITS).min(1.0));
+        let most = if leaving > 0.0 { (unseen[window] + leaving).next_up() } else { unseen[window] };
+        let usual = (0.0, round_decimal_up(most, DIGITS).min(1.0));
         Stencil::new(hull, ground, usual, |position| {
             let interval = &intervals[places[position]];
             Some((interval.lower[window], interval.upper))
@@ -310,5 +367,5 @@ fn regions(
             }
         }
     };
-    (0..targets.len()).into_par_iter().map_init(Vec::new, counts).collect()
+    (0..targets.num_originals()).into_par_iter().map_init(Vec::new, counts).collect()
 }

@@ -34,7 +34,8 @@ impl<'a> Chooser<'a> {
     pub(super) fn choose(&mut self, stencils: &[Stencil], target: usize) -> Chosen {
         let Self { rows, preference, buffer: RowBuffer { entries, coordinates }, expectation } = self;
         rows.ground.origin(target, coordinates);
-        let windows = 0..stencils.len();
+        let (first, windows) = (rows.first_stencil(target), 0..rows.windows());
+        let stencils = &stencils[first..first + windows.len()];
         let best = match preference {
             Preference::LeastFailing => {
                 first_best(windows, |window| -rows.failed(&stencils[window], target, coordinates, window))
@@ -48,13 +49,13 @@ impl<'a> Chooser<'a> {
         };
         let stencil = &stencils[best];
         let special = rows.special(stencil, target, coordinates, best);
-        Chosen { stencil: best as u8, special, length: rows.length(stencil, coordinates, special) }
+        Chosen { stencil: (first + best) as u32, special, length: rows.length(stencil, coordinates, special) }
     }
 
     /// The row chosen last.
     pub(super) fn row<'b>(&'b mut self, stencils: &'b [Stencil], chosen: &Chosen) -> Row<'b> {
         let RowBuffer { entries, coordinates } = &mut self.buffer;
-        stencils[usize::from(chosen.stencil)].row(&self.rows.ground, coordinates, chosen.special, entries)
+        stencils[chosen.stencil as usize].row(&self.rows.ground, coordinates, chosen.special, entries)
     }
 }
 

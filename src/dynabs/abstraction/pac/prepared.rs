@@ -49,7 +49,8 @@ impl Prepared {
         let origins = if placements.shared().is_some() { 1 } else { targets.len() };
         let mut budget = ConfidenceBudget::new(beta / Rational::from_integer(sweep.into()));
         let offsets = placements.offset_ranges(grid);
-        let levels = Levels::new(&mut budget, lower, &offsets, origins, &goal_distances)?;
+        let sides = 2 * watched.iter().filter(|&&watched| watched).count();
+        let levels = Levels::new(&mut budget, lower, sides, &offsets, origins, &goal_distances)?;
 
         let stack = Stack { last: &noise.samples, between, watched };
         let windows = Windows::new(stack, grid, placements.shared(), discard, &levels.windows);

@@ -1,6 +1,6 @@
 //! How many cells of a kind lie in a box.
 
-use super::super::cell_counts::CellBox;
+use super::super::cell_box::CellBox;
 use super::Ground;
 use imdp::model::StateId;
 

@@ -1,6 +1,6 @@
 //! The cells that rows lie on, and what they are to them.
 
-use super::super::cell_counts::CellBox;
+use super::super::cell_box::CellBox;
 use super::super::targets::Targets;
 use crate::partition::{CellId, Grid};
 use imdp::model::StateId;
@@ -15,6 +15,8 @@ pub(in super::super) struct Ground {
     pub(in super::super) states: Vec<StateId>,
     /// Per dimension, the cell of each coordinate of the targets; nothing where origins are those of the grid.
     targets: Vec<Vec<i32>>,
+    /// Where targets that stand there again stand, after all others.
+    again: Vec<u32>,
 }
 
 impl Ground {
@@ -32,11 +34,17 @@ impl Ground {
             strides: grid.strides().iter().map(|&stride| stride.into()).collect(),
             states: (0..grid.num_cells()).map(|cell| state(CellId(cell))).collect(),
             targets: shared.and_then(Targets::cells_along_axes).map_or(vec![], <[_]>::to_vec),
+            again: shared.map_or(vec![], |targets| {
+                (targets.num_originals()..targets.len()).map(|t| targets.original(t) as u32).collect()
+            }),
         }
     }
 
     /// Writes where the coordinates of an action's row count from into `origin`.
-    pub(in super::super) fn origin(&self, mut target: usize, origin: &mut Vec<i32>) {
+    pub(in super::super) fn origin(&self, target: usize, origin: &mut Vec<i32>) {
+        let originals: usize = self.targets.iter().map(Vec::len).product();
+        let copy = target.checked_sub(originals).and_then(|copy| self.again.get(copy));
+        let mut target = copy.map_or(target, |&original| original as usize);
         origin.clear();
         origin.resize(self.cells.len(), 0);
         for (own, axis) in origin.iter_mut().zip(&self.targets).rev() {

@@ -1,6 +1,7 @@
 //! How many samples land in cells of each kind, counted along runs.
 
-use super::super::cell_counts::{CellBox, CellCounts, Count, RegionCounts};
+use super::super::cell_box::CellBox;
+use super::super::cell_counts::{CellCounts, Count, RegionCounts};
 use super::{Ground, Runs};
 use imdp::model::StateId;
 

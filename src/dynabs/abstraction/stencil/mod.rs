@@ -10,7 +10,7 @@ mod hits;
 mod rows;
 mod runs;
 
-use super::cell_counts::CellBox;
+use super::cell_box::CellBox;
 pub(super) use box_count::BoxCount;
 pub(super) use ground::Ground;
 pub(super) use hits::Hits;

@@ -18,7 +18,7 @@ pub(in super::super) struct StencilRows {
     ground: Arc<Ground>,
     stencils: Arc<[Stencil]>,
     /// Per row, its stencil.
-    shapes: Vec<u8>,
+    shapes: Vec<u32>,
     /// Per row, the place of its special intervals in `specials`.
     special: Vec<u32>,
     specials: Vec<Special>,
@@ -30,7 +30,7 @@ pub(in super::super) struct StencilRows {
 /// What is kept of a row.
 pub(in super::super) struct Chosen {
     /// Which stencil it is.
-    pub(in super::super) stencil: u8,
+    pub(in super::super) stencil: u32,
     pub(in super::super) special: Special,
     /// How many entries it has.
     pub(in super::super) length: u32,
@@ -104,7 +104,7 @@ impl ComputedRows for StencilRows {
     }
 
     fn row<'a>(&'a self, id: RowId, buffer: &'a mut RowBuffer) -> Row<'a> {
-        let stencil = &self.stencils[usize::from(self.shapes[id.index()])];
+        let stencil = &self.stencils[self.shapes[id.index()] as usize];
         let special = self.specials[self.special[id.index()] as usize];
         let RowBuffer { entries, coordinates } = buffer;
         self.ground.origin(id.index(), coordinates);

@@ -1,6 +1,6 @@
 //! Cells in runs along the last dimension.
 
-use super::super::cell_counts::CellBox;
+use super::super::cell_box::CellBox;
 use super::Ground;
 
 /// Cells around an origin, in runs along the last dimension, ascending.

@@ -1,6 +1,6 @@
 //! Stencils against what their definition says, cell by cell.
 
-use super::super::cell_counts::CellBox;
+use super::super::cell_box::CellBox;
 use super::{BoxCount, Ground, Special, Stencil};
 use crate::partition::{CellId, Grid};
 use imdp::model::{RowEntries, StateId};

@@ -26,8 +26,9 @@
 mod lottery;
 mod shape;
 
-use super::cell_counts::CellBox;
+use super::cell_box::CellBox;
 use super::placement::Placement;
+use super::room::{RUNGS, Room};
 use crate::Warning;
 use crate::noise::NoiseSamples;
 use crate::partition::Grid;
@@ -141,6 +142,39 @@ impl Windows {
     /// Where the noise so far is after a step in between, counted from 0, if it is in a window: lower and upper corner.
     pub(super) fn between(&self, window: usize, step: usize) -> (Vec<f64>, Vec<f64>) {
         self.between[step].sides(self.reaches[window])
+    }
+
+    /// Where the noise so far is after a step in between, counted from 0, if it stays within a rung: lower and upper corner.
+    pub(super) fn rung(&self, rung: usize, step: usize) -> (Vec<f64>, Vec<f64>) {
+        self.between[step].sides(RUNGS[rung])
+    }
+
+    /// Whether coordinates count from the target, for all actions alike.
+    pub(super) fn are_shared(&self) -> bool {
+        self.of_cells
+    }
+
+    /// How many samples did not decide about proportions.
+    pub(super) fn independent(&self) -> u64 {
+        self.depths.len() as u64 - self.shape_outside.1
+    }
+
+    /// Per sample, whether it stays in a room for certain in between, as a depth: in all windows or in none. Those that decided
+    /// about proportions are in none.
+    pub(super) fn depths_in(&self, room: Room, between: &[NoiseSamples]) -> Vec<u8> {
+        let members = lottery::shape_members(self.depths.len());
+        let within: Vec<_> = self.between.iter().map(|shape| shape.room(room)).collect();
+        let stays = |i: usize| {
+            within.iter().zip(between).all(|((lower, upper), sums)| {
+                let noise = sums.get(i);
+                (0..lower.len()).all(|j| {
+                    let (x, error) = (noise.value(j), noise.error(j));
+                    lower[j] <= (x - error).next_down() && (x + error).next_up() <= upper[j]
+                })
+            })
+        };
+        let depth = |i| if members.binary_search(&i).is_err() && stays(i) { WINDOWS as u8 } else { 0 };
+        (0..self.depths.len()).map(depth).collect()
     }
 
     /// Per window, a bound on the mass outside; the largest window first.

@@ -1,7 +1,8 @@
 //! The center and the proportions of nested boxes.
 
-use super::super::cell_counts::CellBox;
+use super::super::cell_box::CellBox;
 use super::super::placement::Placement;
+use super::super::room::{RUNGS, Room};
 use super::farther;
 use crate::noise::{NoiseSample, NoiseSamples};
 use crate::partition::Grid;
@@ -70,6 +71,19 @@ impl Shape {
             }
         }
         cells
+    }
+
+    /// The lower and the upper corner of a room; infinite where it has no limit.
+    pub(super) fn room(&self, room: Room) -> (Vec<f64>, Vec<f64>) {
+        let side = |rung: usize, j: usize| {
+            let (lower, upper) = self.sides(RUNGS[rung]);
+            (lower[j], upper[j])
+        };
+        let limits = |j: usize| {
+            let lower = room.limit(2 * j).map_or(f64::NEG_INFINITY, |rung| side(rung, j).0);
+            (lower, room.limit(2 * j + 1).map_or(f64::INFINITY, |rung| side(rung, j).1))
+        };
+        (0..self.half.len()).map(limits).unzip()
     }
 
     /// The lower and the upper corner of the box that reaches this far.

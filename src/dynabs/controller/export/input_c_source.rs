@@ -1,8 +1,9 @@
 //! The controller of a problem whose actions are inputs, as one self-contained C99 file.
 
+use super::c_memory::MemorySource;
 use super::c_source::{CSourceError, comment, double, identifier, list, promise, rows};
 use crate::controller::InputController;
-use crate::partition::CellKind;
+use crate::partition::{CellId, CellKind};
 use crate::rendered::ended;
 use askama::Template;
 
@@ -30,6 +31,8 @@ struct InputControllerSource {
     stride: String,
     num_cells: String,
     kind: String,
+    memory: Option<MemorySource>,
+    num_starts: String,
     first_entry: String,
     num_entries: String,
     steps_left: String,
@@ -56,7 +59,7 @@ pub fn input_c_source(controller: &InputController, name: &str, file: &str) -> R
         *sum += faces.len();
         Some(*sum)
     });
-    let kind = |kind: &CellKind| match kind {
+    let kind = |kind: CellKind| match kind {
         CellKind::Ordinary => 0,
         CellKind::Goal => 1,
         CellKind::Unsafe => 2,
@@ -91,7 +94,9 @@ pub fn input_c_source(controller: &InputController, name: &str, file: &str) -> R
         centers: list(controller.centers.iter().flatten().map(double)),
         stride: list(controller.lookup.strides().iter()),
         num_cells: controller.num_cells().to_string(),
-        kind: list(controller.kinds.iter().map(kind)),
+        kind: list((0..controller.num_cells()).map(|cell| kind(controller.kind(CellId(cell))))),
+        memory: MemorySource::new(controller),
+        num_starts: (controller.schedule.starts.len() - 1).to_string(),
         first_entry: list(controller.schedule.starts.iter()),
         num_entries: entries.len().max(1).to_string(),
         steps_left: or_zero(entries.iter().map(|entry| entry.steps_left).collect()),

@@ -1,5 +1,6 @@
 //! The controller as files: JSON and CSV to read, C to deploy.
 
+mod c_memory;
 mod c_source;
 mod csv;
 mod input_c_source;

@@ -2,11 +2,10 @@
 
 use super::input_check::{InputCheck, Violation};
 use super::runs::{End, RunOutcome};
+use super::witness::Witness;
 use super::{Tally, Trajectory, TrajectoryStep};
-use crate::controller::{Decision, InputController};
-use crate::landing::Aim;
-use crate::partition::RegionLookup;
-use crate::problem::{InputProblem, Objective};
+use crate::controller::{Decision, InputController, RunMemory};
+use crate::problem::InputProblem;
 use imdp::progress::Progress;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha12Rng;
@@ -30,9 +29,7 @@ pub struct InputSimulation<'a> {
     problem: &'a InputProblem,
     controller: &'a InputController,
     inputs: Option<InputCheck>,
-    /// The goal, or the region to stay in.
-    wanted: Vec<RegionLookup>,
-    avoid: Vec<RegionLookup>,
+    witness: Witness<'a>,
     parameters: ParameterChoice,
     most_steps: u64,
 }
@@ -51,14 +48,11 @@ impl<'a> InputSimulation<'a> {
         parameters: ParameterChoice,
         most_steps: u64,
     ) -> Self {
-        let lookups = |regions: &[_]| regions.iter().map(RegionLookup::new).collect();
-        let (Objective::Reach { goal: wanted } | Objective::Stay { safe: wanted }) = problem.objective();
         Self {
             problem,
             controller,
             inputs: problem.set().map(InputCheck::new),
-            wanted: lookups(wanted),
-            avoid: lookups(problem.unsafe_regions()),
+            witness: Witness::new(problem.objective(), problem.unsafe_regions()),
             parameters,
             most_steps: problem.horizon().unwrap_or(most_steps),
         }
@@ -94,14 +88,13 @@ impl<'a> InputSimulation<'a> {
     }
 
     fn observe(&self, start: &[f64], seed: u64, run: u64, mut see: impl FnMut(TrajectoryStep)) -> RunOutcome {
-        let aim = self.problem.objective().aim();
         let mut rng = ChaCha12Rng::seed_from_u64(seed);
         rng.set_stream(run);
         let mut x = start.to_vec();
         self.controller.wrap(&mut x);
         let mut u = vec![0.0; self.controller.num_inputs()];
         let mut scratch = Vec::new();
-        let (mut satisfied, mut lost) = (false, false);
+        let (mut seen, mut memory) = (self.witness.start(), RunMemory::default());
         let mut outcome = RunOutcome {
             end: End::Unfinished,
             satisfied: false,
@@ -112,10 +105,8 @@ impl<'a> InputSimulation<'a> {
             first_violation: None,
         };
         loop {
-            let is_wanted = contains(&self.wanted, &x) || self.wanted.is_empty() && aim == Aim::Stay;
-            lost |= contains(&self.avoid, &x) || aim == Aim::Stay && !is_wanted;
-            satisfied |= aim == Aim::Reach && is_wanted && !lost;
-            let decision = self.controller.control(&x, outcome.steps, &mut u);
+            self.witness.see(&mut seen, &x);
+            let decision = self.controller.control(&x, outcome.steps, &mut memory, &mut u);
             let goes_on = matches!(decision, Decision::Apply { .. });
             let applied = goes_on && outcome.steps < self.most_steps;
             let input = applied.then(|| u.clone());
@@ -129,8 +120,7 @@ impl<'a> InputSimulation<'a> {
                     Decision::NoAction => End::NoAction,
                     Decision::Over => End::Over,
                 };
-                let kept = end == End::Over && !lost;
-                let satisfied = satisfied || aim == Aim::Stay && kept;
+                let satisfied = self.witness.is_satisfied(&seen, end);
                 return RunOutcome { end, satisfied, satisfied_at_instants: satisfied, ..outcome };
             }
             if let Some((half_space, excess)) = self.inputs.as_ref().and_then(|inputs| inputs.violation(&u)) {
@@ -190,8 +180,4 @@ impl<'a> InputSimulation<'a> {
             }
         }
     }
-}
-
-fn contains(regions: &[RegionLookup], x: &[f64]) -> bool {
-    regions.iter().any(|region| region.contains(x))
 }

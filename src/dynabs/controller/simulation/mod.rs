@@ -7,6 +7,7 @@ mod plant;
 mod runs;
 mod tally;
 mod trajectory;
+mod witness;
 
 pub use input_check::{InputCheck, Violation};
 pub use input_runs::{InputSimulation, ParameterChoice};

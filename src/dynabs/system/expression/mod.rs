@@ -6,6 +6,7 @@ mod error;
 mod graph;
 mod lexer;
 mod number;
+mod operations;
 mod parser;
 mod scope;
 mod tape;

@@ -1,0 +1,68 @@
+//! What a controller remembers of a run.
+
+use crate::partition::CellId;
+use crate::problem::{InputProblem, Objective};
+use crate::task::{CellTask, LetterLookup, Memory, Standing};
+
+/// What a run has done so far, as far as its task cares; the default before it begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RunMemory(Option<Standing>);
+
+impl RunMemory {
+    /// Where the run stands with its task, if it has begun.
+    pub fn standing(self) -> Option<Standing> {
+        self.0
+    }
+
+    /// The memory with which the task is open, if it is.
+    pub fn open(self) -> Option<Memory> {
+        match self.0 {
+            Some(Standing::Open(memory)) => Some(memory),
+            _ => None,
+        }
+    }
+
+    pub(super) fn fail(&mut self) {
+        self.0 = Some(Standing::Failed);
+    }
+}
+
+/// How states change what is remembered.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct MemoryUpdate {
+    task: CellTask,
+    letters: LetterLookup,
+}
+
+impl MemoryUpdate {
+    pub(super) fn of_inputs(problem: &InputProblem) -> Self {
+        Self::new(problem.cell_task(), problem.objective())
+    }
+
+    pub(super) fn new(task: &CellTask, objective: &Objective) -> Self {
+        let letters = match objective {
+            Objective::Reach { .. } | Objective::Stay { .. } => LetterLookup::default(),
+            Objective::Automaton(task) => LetterLookup::new(task.regions()),
+        };
+        Self { task: task.clone(), letters }
+    }
+
+    pub(super) fn task(&self) -> &CellTask {
+        &self.task
+    }
+
+    pub(super) fn letters(&self) -> &LetterLookup {
+        &self.letters
+    }
+
+    /// Remembers a state in a cell: where the run stands then. What is decided stays so.
+    pub(super) fn look(&self, memory: &mut RunMemory, cell: CellId, x: &[f64]) -> Standing {
+        let standing = match memory.0 {
+            Some(decided @ (Standing::Failed | Standing::Reached)) => decided,
+            Some(Standing::Open(before)) => self.task.arrive(Some(before), cell, || self.letters.letter(x)),
+            None => self.task.arrive(None, cell, || self.letters.letter(x)),
+        };
+        memory.0 = Some(standing);
+        standing
+    }
+}

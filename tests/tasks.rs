@@ -1,0 +1,339 @@
+//! Tasks over named regions: values, what the closed loop does, the C code.
+
+use crate::common::c_compiler;
+use dynabs::abstraction::inputs::InputAbstraction;
+use dynabs::controller::export::{input_c_source, write_input_csv, write_input_json};
+use dynabs::controller::{Decision, InputController, InputSimulation, ParameterChoice, RunMemory};
+use dynabs::guarantee::Safety;
+use dynabs::landing::LandingSolution;
+use dynabs::model_file::{Document, StatedProblem};
+use dynabs::problem::InputProblem;
+use dynabs::task::Aim;
+use imdp::property::Resolution;
+use imdp::solver::{Answer, SolverOptions};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha12Rng;
+use serde_json::{Value, json};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::{fs, io::Write};
+
+/// A package to be picked up at `a` and brought to `c` without meeting `b`, in a small room. The faces of `a` cut cells, and
+/// `c` is a triangle.
+fn model(task: Value) -> Value {
+    let noise = json!({"gaussian": {"deviation": 0.4}});
+    json!({
+        "name": "room",
+        "dynamics": {"A": [[0.9, 0], [0, 0.9]], "B": [[1, 0], [0, 1]]},
+        "noise": {"components": [noise, noise]},
+        "input": {"lower": [-1, -1], "upper": [1, 1], "points": [3, 3]},
+        "partition": {"lower": [-3, -3], "upper": [3, 3], "cells": [12, 12], "resolution": [1, 1]},
+        "regions": {
+            "a": {"lower": [1.2, -1], "upper": [3, 1.2]},
+            "b": [{"lower": [-0.5, -2], "upper": [0.25, 0]}, {"lower": [2, 2], "upper": [3, 3]}],
+            "c": {"G": [[1, 1], [-1, 0], [0, -1]], "g": [-2.25, 3, 3]}
+        },
+        "task": task,
+        "initial_state": [-2, 2]
+    })
+}
+
+fn stated(task: Value) -> Result<InputProblem, String> {
+    let document = Document::parse(Path::new("m.json"), &model(task).to_string()).unwrap();
+    match document.stated().map_err(|error| error.to_string())? {
+        StatedProblem::Inputs(problem) => Ok(*problem),
+        StatedProblem::Targets(_) => panic!("known noise makes actions inputs"),
+    }
+}
+
+fn solved(task: Value) -> (InputProblem, InputAbstraction, LandingSolution) {
+    let problem = stated(task).unwrap();
+    let abstraction = InputAbstraction::new(&problem).unwrap();
+    let solution = abstraction.question().solve(&SolverOptions::default());
+    (problem, abstraction, solution)
+}
+
+fn sequence(horizon: Value) -> Value {
+    json!({"type": "sequence", "sequence": [{"reach": "a"}, {"reach": "c", "avoid": ["b"]}], "horizon": horizon})
+}
+
+fn formula(text: &str, logic: &str, horizon: u64) -> Value {
+    json!({"type": "formula", "formula": text, "logic": logic, "horizon": horizon})
+}
+
+/// As another tool may write `F (a & (!b U c))`.
+const DELIVERY: &str = r#"HOA: v1
+States: 3
+Start: 0
+AP: 3 "c" "b" "a"
+Acceptance: 1 Inf(0)
+--BODY--
+State: 0 [!2 | !0 & 1] 0 [2 & !0 & !1] 1 [0 & 2] 2
+State: 1 [!0 & !1] 1 [!0 & 1 & !2] 0 [!0 & 1 & 2] 0 [0] 2
+State: 2 {0} [t] 2
+--END--
+"#;
+
+/// What is to be done in some ways, all with a memory or an end of its own.
+fn tasks() -> Vec<Value> {
+    let mut avoiding = sequence(json!(8));
+    avoiding["unsafe"] = json!([{"lower": [-3, 0.25], "upper": [-2.5, 1]}]);
+    vec![
+        sequence(json!(8)),
+        avoiding,
+        formula("G !b", "ltl", 4),
+        formula("(!b W a) & G !c", "ltl", 4),
+        formula("(F a) & G !b", "ltlf", 4),
+        json!({"type": "reach_at", "goal": ["a"], "horizon": 3}),
+        json!({"type": "automaton", "automaton": {"hoa": DELIVERY}, "horizon": 8}),
+    ]
+}
+
+#[test]
+fn the_general_solver_gives_the_native_values() {
+    for task in tasks() {
+        let (problem, abstraction, solution) = solved(task.clone());
+        let cell = problem.initial_cell().unwrap();
+        let encoded = abstraction.question().model(&[cell.0]).unwrap();
+        for (resolution, own) in [
+            (Resolution::Pmaxmin, solution.values.lower[cell.index()]),
+            (Resolution::Pmaxmax, solution.values.upper[cell.index()]),
+        ] {
+            let property = abstraction.property(resolution);
+            let answer = Answer::new(&encoded.model, &property, &SolverOptions::default()).unwrap();
+            assert!(answer.lower - 1e-9 <= own && own <= answer.upper + 1e-9, "{task}: {own} {answer:?}");
+        }
+    }
+}
+
+#[test]
+fn runs_keep_what_is_promised() {
+    let mut open = 0;
+    for task in tasks() {
+        let (problem, abstraction, solution) = solved(task.clone());
+        let controller = InputController::new(&problem, &abstraction, &solution);
+        let simulation = InputSimulation::new(&problem, &controller, ParameterChoice::Random, 1000);
+        for start in [[-2.0, 2.0], [1.3, 0.7], [-2.2, 0.1]] {
+            let tally = simulation.tally(&start, 1, 2000, &());
+            let seen = tally.satisfaction(Safety::EveryStep, 1e-6);
+            let bound = controller.bound_at(&start);
+            let most = solution.values.upper[problem.grid().num_cells().min(cell(&problem, &start)) as usize];
+            assert!(
+                seen.upper >= bound && seen.lower <= most,
+                "{task} from {start:?}: {bound} {seen:?} {most}"
+            );
+            assert_eq!(tally.violations, 0);
+            open += usize::from(bound > 0.05);
+        }
+    }
+    assert!(open > 10, "{open} of the bounds say something");
+}
+
+fn cell(problem: &InputProblem, x: &[f64]) -> u32 {
+    dynabs::partition::CellLookup::new(problem.grid()).locate(x).unwrap().0
+}
+
+/// Equal tasks have equal values, however they are written.
+#[test]
+fn ways_of_saying_a_task_agree() {
+    let values = |task: Value| solved(task).2.values;
+    let by_sequence = values(sequence(json!(8)));
+    for other in [
+        formula("F (a & (!b U c))", "ltl", 8),
+        formula("F (a & !(!c W (b & !c)))", "ltl", 8),
+        json!({"type": "automaton", "automaton": {"hoa": DELIVERY}, "horizon": 8}),
+    ] {
+        let other = values(other);
+        assert_eq!(by_sequence.lower, other.lower);
+        assert_eq!(by_sequence.upper, other.upper);
+    }
+    let goal = json!([{"lower": [1, -1], "upper": [3, 1]}]);
+    let wall = json!([{"lower": [-0.5, -2], "upper": [0, 0]}]);
+    let reach = values(json!({"goal": goal, "unsafe": wall, "horizon": 5}));
+    let mut aligned = model(formula("!wall U goal", "ltl", 5));
+    aligned["regions"] = json!({"goal": goal, "wall": wall});
+    let document = Document::parse(Path::new("m.json"), &aligned.to_string()).unwrap();
+    let StatedProblem::Inputs(problem) = document.stated().unwrap() else { panic!("inputs") };
+    let same = InputAbstraction::new(&problem).unwrap().question().solve(&SolverOptions::default()).values;
+    assert_eq!((reach.lower, reach.upper), (same.lower, same.upper));
+}
+
+#[test]
+fn more_time_is_worth_more() {
+    let [short, long, endless] =
+        [json!(8), json!(30), json!("infinite")].map(|horizon| solved(sequence(horizon)).2.values);
+    for (cell, &endless) in endless.lower.iter().enumerate() {
+        assert!(short.lower[cell] <= long.lower[cell] && long.lower[cell] <= endless + 1e-6, "cell {cell}");
+    }
+    let at = cell(&stated(sequence(json!(8))).unwrap(), &[-2.0, 2.0]) as usize;
+    assert!(
+        endless.lower[at] > long.lower[at] && long.lower[at] > 0.2,
+        "{} {}",
+        endless.lower[at],
+        long.lower[at]
+    );
+}
+
+#[test]
+fn the_controller_remembers() {
+    let (problem, abstraction, solution) = solved(sequence(json!(8)));
+    let controller = InputController::new(&problem, &abstraction, &solution);
+    let (mut memory, mut u) = (RunMemory::default(), [0.0; 2]);
+    let mut look = |x: [f64; 2], k| (controller.control(&x, k, &mut memory, &mut u), memory.open());
+    let (_, before) = look([1.19, 0.0], 0);
+    // In the same cell, but behind the face of the region.
+    let (_, after) = look([1.21, 0.0], 1);
+    assert!(before.is_some() && after.is_some() && before != after);
+    // The package is lost at b, picked up again, and delivered.
+    assert_eq!(look([0.1, -1.0], 2).1, before);
+    assert_eq!(look([2.0, 0.0], 3).1, after);
+    assert_eq!(look([-2.0, -2.0], 4).0, Decision::Reached);
+    assert_eq!(look([9.0, 0.0], 5).0, Decision::Outside);
+}
+
+/// Reads states and steps of runs, one after the other, and writes what the controller says.
+const HARNESS: &str = r#"
+#include <stdio.h>
+#include "controller.c"
+int main(void) {
+    double x[ROOM_STATES];
+    uint32_t k, memory = ROOM_START;
+    while (fread(x, sizeof x, 1, stdin) == 1 && fread(&k, sizeof k, 1, stdin) == 1) {
+        double u[ROOM_INPUTS] = {0};
+        uint32_t status;
+        if (k == 0) {
+            memory = ROOM_START;
+        }
+        status = room_control(x, k, &memory, u);
+        if (fwrite(&status, sizeof status, 1, stdout) != 1 || fwrite(u, sizeof u, 1, stdout) != 1) {
+            return 1;
+        }
+    }
+    return 0;
+}
+"#;
+
+#[test]
+fn c_code_follows_the_memory() {
+    let Some(compiler) = c_compiler() else {
+        eprintln!("SKIPPED: no C compiler (cc, gcc, clang) here, the C code was not tested");
+        return;
+    };
+    let mut done = 0;
+    for task in [sequence(json!(8)), formula("(F a) & G !b", "ltlf", 4)] {
+        let (problem, abstraction, solution) = solved(task);
+        let controller = InputController::new(&problem, &abstraction, &solution);
+        let scratch = tempfile::TempDir::new().unwrap();
+        let source = input_c_source(&controller, problem.name(), "controller.c").unwrap();
+        fs::write(scratch.path().join("controller.c"), source).unwrap();
+        fs::write(scratch.path().join("main.c"), HARNESS).unwrap();
+        let flags = "-std=c99 -Wall -Wextra -Werror -pedantic -O2 -ffp-contract=off main.c -o main -lm";
+        let compiled =
+            Command::new(compiler).args(flags.split(' ')).current_dir(scratch.path()).output().unwrap();
+        assert!(compiled.status.success(), "{}", String::from_utf8_lossy(&compiled.stderr));
+
+        // Runs that jump anywhere, mostly within the partition.
+        let mut rng = ChaCha12Rng::seed_from_u64(3);
+        let mut unit = || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+        let looks: Vec<([f64; 2], u32)> =
+            (0..20_000).map(|i| ([unit() * 6.1 - 3.05, unit() * 6.1 - 3.05], i % 10)).collect();
+        let bytes: Vec<u8> = (looks.iter())
+            .flat_map(|(x, k)| {
+                [x[0].to_ne_bytes(), x[1].to_ne_bytes()].concat().into_iter().chain(k.to_ne_bytes())
+            })
+            .collect();
+        let mut program = Command::new(scratch.path().join("main"))
+            .stdin(Stdio::from(fs::File::open(write(scratch.path(), &bytes)).unwrap()))
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut answers = vec![];
+        std::io::Read::read_to_end(&mut program.stdout.take().unwrap(), &mut answers).unwrap();
+        assert!(program.wait().unwrap().success());
+        let mut memory = RunMemory::default();
+        for ((x, k), answer) in looks.iter().zip(answers.chunks_exact(20)) {
+            if *k == 0 {
+                memory = RunMemory::default();
+            }
+            let mut u = [0.0; 2];
+            let status: u32 = match controller.control(x, u64::from(*k), &mut memory, &mut u) {
+                Decision::Steer { .. } | Decision::Apply { .. } => 0,
+                Decision::Reached => 1,
+                Decision::Unsafe => 2,
+                Decision::Outside => 3,
+                Decision::NoAction => 4,
+                Decision::Over => 5,
+            };
+            done += u32::from(status == 1);
+            // Once outside, the code says that the task has failed, as the library does.
+            assert_eq!(u32::from_ne_bytes(answer[..4].try_into().unwrap()), status, "{x:?} at {k}");
+            for (u, bytes) in u.iter().zip(answer[4..].chunks_exact(8)) {
+                assert_eq!(*u, f64::from_ne_bytes(bytes.try_into().unwrap()), "{x:?} at {k}");
+            }
+        }
+    }
+    assert!(done > 1000, "{done}");
+}
+
+fn write(directory: &Path, bytes: &[u8]) -> std::path::PathBuf {
+    let path = directory.join("looks");
+    fs::File::create(&path).unwrap().write_all(bytes).unwrap();
+    path
+}
+
+#[test]
+fn files_carry_the_memory() {
+    let (problem, abstraction, solution) = solved(sequence(json!(8)));
+    let controller = InputController::new(&problem, &abstraction, &solution);
+    let (mut text, mut table) = (vec![], vec![]);
+    write_input_json(&controller, "room", &mut text).unwrap();
+    let value: Value = serde_json::from_slice(&text).unwrap();
+    let memories = controller.task().memories() as usize;
+    assert_eq!((memories, value["memory"]["memories"].as_u64()), (2, Some(2)));
+    assert_eq!(value["memory"]["next"].as_array().unwrap().len(), memories + 1);
+    assert_eq!(value["policy"]["entries"].as_array().unwrap().len(), memories);
+    assert!(
+        value["promise"]["text"]
+            .as_str()
+            .unwrap()
+            .contains("the run comes to a, then to c (not meeting b before)")
+    );
+    write_input_csv(&controller, problem.grid(), &mut table).unwrap();
+    let table = String::from_utf8(table).unwrap();
+    assert!(table.starts_with("memory,from_step,") && table.contains("\n1,0,"), "{}", &table[..200]);
+}
+
+#[test]
+fn mistakes_are_explained() {
+    for (task, expected) in [
+        (formula("G F a", "ltl", 5), "noise leaves every bounded partition"),
+        (formula("(F a) & G !b", "ltl", 5), "the value of this task is 0"),
+        (formula("F d", "ltl", 5), "one of a, b, c"),
+        (formula("F a & b", "ltl", 5), "/task/formula (character 5)"),
+        (json!({"type": "formula", "horizon": 5}), "the field `formula`"),
+        (json!({"type": "sequence", "sequence": [], "horizon": 5}), "/task/sequence"),
+        (json!({"type": "sequence", "sequence": [{"reach": "x"}], "horizon": 5}), "/task/sequence/0/reach"),
+        (json!({"type": "reach", "formula": "F a", "goal": ["a"], "horizon": 5}), "/task/formula"),
+        (json!({"goal": ["c"], "horizon": 5}), "\"F goal\""),
+        (json!({"goal": ["d"], "horizon": 5}), "one of a, b, c"),
+        (json!({"type": "reach_at", "goal": ["a"], "horizon": "infinite"}), "/task/horizon"),
+        (json!({"type": "automaton", "automaton": {}, "horizon": 5}), "exactly one of file and hoa"),
+        (
+            json!({"type": "automaton", "automaton": {"file": "none.hoa"}, "horizon": 5}),
+            "/task/automaton/file",
+        ),
+        (
+            json!({"type": "automaton", "automaton": {"hoa": DELIVERY.replace("\"c\"", "\"d\"")}, "horizon": 5}),
+            "the proposition \"d\"",
+        ),
+        (
+            json!({"type": "automaton", "automaton": {"hoa": DELIVERY.replace("[t] 2", "[t] 0")}, "horizon": 5}),
+            "liveness",
+        ),
+        (formula("F (a & c)", "ltl", 5), "no run of cells fulfils"),
+    ] {
+        let error = stated(task.clone()).map(|_| task).unwrap_err();
+        assert!(error.contains(expected), "{error}");
+    }
+    assert_eq!(stated(formula("(F a) & G !b", "ltlf", 5)).unwrap().cell_task().aim(), Aim::End);
+}
