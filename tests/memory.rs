@@ -71,19 +71,31 @@ fn a_dry_run_shows_what_it_takes() {
     assert!(json["memory"]["available"].as_u64().unwrap() < 2_000_000 << 10);
 }
 
-/// Rows fit into their estimate, which is not so large that what fits is refused: grids are coarse in some dimensions. (Rows of
-/// actions that need room in between are limited by themselves.)
+/// Rows of targets that sit differently in their cells fit into their estimate, which is not so large that what fits is refused:
+/// grids are coarse in some dimensions. Rows that are shifts of one another take some bytes each, however long they are. (Rows
+/// of actions that need room in between are limited by themselves.)
 #[test]
 fn rows_take_about_what_was_estimated() {
-    for name in ["predecessors/building_1_zone", "double_integrator", "spacecraft_aligned"] {
-        let abstraction = abstraction(name, &[]);
-        let entries = abstraction.model.rows().num_entries() as u64;
-        let need = abstraction.footprint.needs().iter().find(|need| need.what == "the rows of the model");
-        let estimate = need.unwrap().bytes / 60;
+    for (name, targets) in [
+        ("predecessors/building_1_zone", r#"{"lower":[19.1,36],"upper":[22.9,40],"cells":[17,19]}"#),
+        ("double_integrator", r#"{"lower":[-20,-20],"upper":[20,20],"cells":[37,37]}"#),
+    ] {
+        let estimated = |sets: &[String]| {
+            let abstraction = abstraction(name, sets);
+            let needs = abstraction.footprint.needs();
+            let bytes = needs.iter().find(|need| need.what == "the rows of the model").unwrap().bytes;
+            (bytes, abstraction.model)
+        };
+        let (bytes, model) = estimated(&[format!("/targets={targets}")]);
+        let entries = model.rows().num_entries() as u64;
+        assert_eq!(model.rows().stored_entries() as u64, entries);
+        let estimate = bytes / 60;
         assert!(
             entries <= estimate && estimate <= 8 * entries,
             "{name}: {entries} entries, {estimate} estimated"
         );
+        let (bytes, model) = estimated(&[]);
+        assert_eq!((model.rows().stored_entries(), bytes), (0, 24 * model.rows().len() as u64));
     }
 }
 

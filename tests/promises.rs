@@ -151,6 +151,7 @@ fn one_far_sample_moves_neither_levels_nor_the_cell_of_a_target() {
         let rows: Vec<_> = abstraction
             .model
             .rows()
+            .to_stored()
             .iter()
             .map(|row| (row.successors.to_vec(), row.lower.to_vec()))
             .collect();

@@ -61,7 +61,7 @@ fn with_wider_interval(record: &Record, state: StateId, choice: usize, by: f64) 
     let changed = model.choices().rows(state).nth(choice).unwrap();
     let mut rows = Rows::new();
     let mut successor = None;
-    for (id, row) in RowId::first(model.rows().len()).zip(model.rows().iter()) {
+    for (id, row) in RowId::first(model.rows().len()).zip(model.rows().to_stored().iter()) {
         for ((&s, &lower), &upper) in row.successors.iter().zip(row.lower).zip(row.upper) {
             let widen = id == changed && successor.is_none() && upper < 0.5;
             successor = if widen { Some(s) } else { successor };

@@ -7,6 +7,7 @@ mod error;
 mod exports;
 mod input_run_source;
 mod input_summary;
+mod memory;
 mod model_source;
 mod output;
 mod progress;

@@ -151,9 +151,8 @@ fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<Loade
     }
     verify(&["model.tra", "model.sta", "model.lab", "model.props"])?;
     let mut loaded = load_file(&tra, Format::Prism, bars)?;
-    let raised = |manifest: &&Manifest| {
-        loaded.model.rows().iter().any(|row| row.lower.contains(&manifest.prism_lower_bound))
-    };
+    let raised =
+        |manifest: &&Manifest| loaded.model.rows().any(|row| row.lower.contains(&manifest.prism_lower_bound));
     let raised = manifest.as_ref().filter(raised);
     loaded.warnings.extend(raised.map(|manifest| raised_bounds(manifest, &loaded.model)));
     let raised = raised.is_some();
@@ -164,7 +163,7 @@ fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<Loade
 /// What raising lower bounds of 0 for PRISM can do to the values of this file.
 fn raised_bounds(manifest: &Manifest, model: &IntervalMdp) -> String {
     let raised = manifest.prism_lower_bound;
-    let longest = model.rows().iter().map(|row| row.len()).max().unwrap_or(0);
+    let longest = model.rows().longest();
     match manifest.horizon {
         Some(horizon) => format!(
             "model.tra has lower bounds of {raised:e} where the model has 0: within {} steps that changes a value by at \

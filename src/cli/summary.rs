@@ -6,15 +6,26 @@ use dynabs::run::Manifest;
 use imdp::model::available_memory;
 use std::fmt::Write as _;
 
+/// Bytes in MiB, rounded up.
+pub(super) fn thousands_of_mib(bytes: u64) -> String {
+    thousands(bytes.div_ceil(1 << 20))
+}
+
 /// How much memory a compilation was expected to take, part by part, and what there is.
 pub(super) fn memory(footprint: &Footprint) -> String {
-    let mib = |bytes: u64| thousands(bytes.div_ceil(1 << 20));
-    let parts: Vec<_> =
-        footprint.needs().iter().map(|need| format!("{} {}", need.what, mib(need.bytes))).collect();
+    let parts: Vec<_> = footprint
+        .needs()
+        .iter()
+        .map(|need| format!("{} {}", need.what, thousands_of_mib(need.bytes)))
+        .collect();
     let available = available_memory()
         .map_or(String::new(), |(bytes, limit)| format!("; {} available ({limit})", thousands(bytes >> 20)));
     let name = "memory";
-    format!("  {name:<13}about {} MiB: {}{available}\n", mib(footprint.bytes()), parts.join(", "))
+    format!(
+        "  {name:<13}about {} MiB: {}{available}\n",
+        thousands_of_mib(footprint.bytes()),
+        parts.join(", ")
+    )
 }
 
 /// The summary of a run; `directory` is where it was written, if it was.

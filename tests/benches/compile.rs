@@ -5,7 +5,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use dynabs::abstraction::compile;
 use dynabs::model_file::Document;
 use dynabs::problem::Problem;
-use imdp::model::StateId;
+use imdp::model::{RowBuffer, StateId};
 use imdp::solver::{Answer, SolverOptions};
 use std::path::Path;
 
@@ -35,7 +35,8 @@ fn benchmark(criterion: &mut Criterion) {
                 let mut best = vec![0.0f64; model.num_states()];
                 for state in StateId::first(model.num_states()) {
                     for row in model.choices().rows(state) {
-                        let row = model.rows().row(row);
+                        let buffer = &mut RowBuffer::default();
+                        let row = model.rows().row(row, buffer);
                         let value: f64 =
                             row.successors.iter().zip(row.lower).map(|(&s, l)| l * values[s.index()]).sum();
                         best[state.index()] = best[state.index()].max(value);

@@ -17,7 +17,7 @@ use dynabs::problem::{
     Gain, GivenSamples, InputSet, LinearDynamics, LowerLayer, Partition, Probabilities, Problem, RegionBox,
     SampleKind, Task,
 };
-use imdp::model::{Row, RowId, StateId};
+use imdp::model::{Row, RowBuffer, RowId, StateId};
 use imdp::solver::{Answer, SolverOptions};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha12Rng;
@@ -189,7 +189,9 @@ impl Experiment {
                 let target = target_cell(enabling, row);
                 let mut truths = self.truths(cell, target);
                 let has_row = row.index() < row_of.targets.len();
-                let row = row_of.model.rows().row(if has_row { row } else { RowId::from_index(target) });
+                let buffer = &mut RowBuffer::default();
+                let row = if has_row { row } else { RowId::from_index(target) };
+                let row = row_of.model.rows().row(row, buffer);
                 truths.any(|truth| excludes(problem, row_of, &row, truth))
             })
         })

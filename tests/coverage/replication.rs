@@ -75,7 +75,7 @@ pub fn replicate(layout: Layout, noise: Noise, (samples, beta): (usize, f64), se
 /// less than the row says.
 fn violations(problem: &Problem, abstraction: &Abstraction, truths: &[Truth], less: f64) -> [bool; 3] {
     let mut violated = [false; 3];
-    for (row, truth) in abstraction.model.rows().iter().zip(truths) {
+    for (row, truth) in abstraction.model.rows().to_stored().iter().zip(truths) {
         let probabilities = truth.over(&row, problem, abstraction);
         for (i, &state) in row.successors.iter().enumerate() {
             let (family, upper) = match state {

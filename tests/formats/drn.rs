@@ -49,7 +49,8 @@ fn the_dialect_is_read() {
     assert_eq!(model.kind(), ModelKind::Idtmc);
     assert_eq!(model.labels().iter().map(|(name, _)| name).collect::<Vec<_>>(), ["two words", "goal"]);
     assert!(model.choices().is_absorbing(StateId(1)) && model.choices().is_deadlock(StateId(2)));
-    let row = model.rows().row(RowId(0));
+    let buffer = &mut RowBuffer::default();
+    let row = model.rows().row(RowId(0), buffer);
     assert_eq!(
         (row.successors, row.lower, row.upper),
         (&[StateId(1), StateId(2)][..], &[0.25, 0.75][..], &[0.25, 0.75][..])
@@ -125,7 +126,7 @@ fn other_peoples_files_are_read() {
     assert!(
         matches!(&model.variables().get("b").unwrap().values, VariableValues::Bool(set) if !set.contains(0))
     );
-    assert_eq!(model.rows().row(RowId(0)).lower, [1.0 / 3.0; 2]);
+    assert_eq!(model.rows().to_stored().row(RowId(0)).lower, [1.0 / 3.0; 2]);
 }
 
 #[test]
@@ -139,7 +140,7 @@ fn sums_are_those_of_the_decimals() {
     );
     let imported = import_text(text.as_bytes()).unwrap();
     assert!(imported.warnings.is_empty());
-    assert!(imported.model.rows().row(RowId(0)).lower.iter().all(|&lower| lower == 0.1));
+    assert!(imported.model.rows().to_stored().row(RowId(0)).lower.iter().all(|&lower| lower == 0.1));
 }
 
 #[test]

@@ -15,14 +15,14 @@ fn expected(model: &IntervalMdp, format: Format) -> IntervalMdp {
     }
     let mut parts = parts(model);
     let mut rows = Rows::new();
-    for row in model.rows().iter() {
+    for row in model.rows().to_stored().iter() {
         for ((&successor, &lower), &upper) in row.successors.iter().zip(row.lower).zip(row.upper) {
             let lower = if lower == 0.0 { RAISED_LOWER_BOUND } else { lower };
             rows.push_entry(successor, lower, upper.max(lower));
         }
         rows.finish_row();
     }
-    parts.rows = rows;
+    parts.rows = rows.into();
     if parts.variables.is_empty() {
         let values = (0..model.num_states() as i32).collect();
         parts.variables.push("s", VariableValues::Int(values));
@@ -33,7 +33,7 @@ fn expected(model: &IntervalMdp, format: Format) -> IntervalMdp {
 /// Lower bounds that sum to 1 sum to more with the zeros raised for PRISM: reading widens them.
 fn raising_exceeds_one(model: &IntervalMdp) -> bool {
     let exceeds = |row: Row<'_>| row.lower.contains(&0.0) && row.lower.iter().sum::<f64>() > 1.0 - 1e-9;
-    model.rows().iter().any(exceeds)
+    model.rows().to_stored().iter().any(exceeds)
 }
 
 /// A choice: its name and its transitions.
@@ -52,7 +52,8 @@ fn expanded(model: &IntervalMdp) -> Vec<Vec<Choice>> {
             push(None, vec![(state, 1.0, 1.0)]);
         }
         for id in model.choices().rows(StateId(state.0)) {
-            let row = model.rows().row(id);
+            let buffer = &mut RowBuffer::default();
+            let row = model.rows().row(id, buffer);
             let bounds = row.lower.iter().zip(row.upper);
             push(
                 Some(RowId(id.0)),
@@ -122,7 +123,7 @@ fn bounds_at_the_edge_of_doubles_come_back() {
     let scratch = tempfile::tempdir().unwrap();
     for format in ALL {
         let read = read(&write(&model, format, scratch.path()));
-        for (written, row) in model.rows().iter().zip(read.rows().iter()) {
+        for (written, row) in model.rows().to_stored().iter().zip(read.rows().to_stored().iter()) {
             assert_eq!(row.upper, written.upper, "{format}");
             let bounds = row.lower.iter().zip(row.upper).zip(written.lower);
             assert!(

@@ -73,8 +73,8 @@ fn lower_bounds_of_zero_are_raised_in_the_file_only() {
     let index: Value = serde_json::from_slice(&members["index.json"]).unwrap();
     assert_eq!(index["file-data"]["parameters"]["zero-lower-bound"], 1e-300f64.next_down());
     let again = import_bytes(&bytes(&model, Compression::Gzip)).unwrap().model;
-    assert_eq!(again.rows().row(RowId(0)).lower, [0.2, 0.0]);
-    assert!(again.rows().iter().any(|row| row.lower.contains(&1e-300)));
+    assert_eq!(again.rows().to_stored().row(RowId(0)).lower, [0.2, 0.0]);
+    assert!(again.rows().to_stored().iter().any(|row| row.lower.contains(&1e-300)));
 }
 
 #[test]
@@ -270,7 +270,7 @@ fn what_may_be_left_out_may_be_left_out() {
     let mut parts = parts(&tiny::model());
     let mut choices = ChoicesBuilder::with_capacity(5);
     (0..5).for_each(|_| choices.push_absorbing());
-    (parts.choices, parts.rows, parts.kind) = (choices.finish(), Rows::new(), ModelKind::Idtmc);
+    (parts.choices, parts.rows, parts.kind) = (choices.finish(), Rows::new().into(), ModelKind::Idtmc);
     parts.actions = ActionNames::None;
     let model = IntervalMdp::new(parts).unwrap();
     let mut all = members(&bytes(&model, Compression::None));

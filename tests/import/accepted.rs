@@ -2,7 +2,7 @@
 
 use imdp::formats::prism::import_with_progress;
 use imdp::formats::{Imported, Place, Warning};
-use imdp::model::{ActionNames, ModelKind, RowId, RowRange, StateId, VariableValues};
+use imdp::model::{ActionNames, ModelKind, RowBuffer, RowId, RowRange, StateId, VariableValues};
 
 use super::{Files, LAB, STA, TRA, assert_refused, import_texts};
 
@@ -12,8 +12,8 @@ fn a_model_is_read() {
     assert_eq!(warnings, []);
     assert_eq!(model.kind(), ModelKind::Imdp);
     assert_eq!((model.size().choices, model.size().transitions, model.size().rows), (3, 4, 1));
-    assert_eq!(model.rows().row(RowId(0)).successors, [1, 2].map(StateId));
-    assert_eq!(model.rows().row(RowId(0)).lower, [0.2, 0.2]);
+    assert_eq!(model.rows().to_stored().row(RowId(0)).successors, [1, 2].map(StateId));
+    assert_eq!(model.rows().to_stored().row(RowId(0)).lower, [0.2, 0.2]);
     assert!(model.choices().is_absorbing(StateId(1)) && model.choices().is_absorbing(StateId(2)));
     let expected = ActionNames::OfChoice {
         names: vec!["a".to_owned(), "b".to_owned()],
@@ -52,7 +52,7 @@ fn oddities_are_accepted() {
     let several = import_texts(TRA, None, "0=\"init\" 1=\"deadlock\"\n0: 0 1\n2: 0\n").unwrap().model;
     assert_eq!(several.initial().ones().collect::<Vec<_>>(), [0, 2]);
     let zero = import_texts("2 1 2\n0 0 0 [0,1]\n0 0 1 [0.0,1]\n", None, "0=\"init\"\n0: 0\n").unwrap();
-    assert_eq!(zero.model.rows().row(RowId(0)).lower, [0.0, 0.0]);
+    assert_eq!(zero.model.rows().to_stored().row(RowId(0)).lower, [0.0, 0.0]);
 }
 
 #[test]
@@ -66,7 +66,8 @@ fn decimals_decide_sums() {
     let [warning @ Warning::Widened { count: 1, first }] = &read.warnings[..] else { panic!() };
     assert_eq!(first.place, Place::Text { line: 4, column: 1 });
     assert!(warning.to_string().contains("m.tra:4:1"));
-    let row = read.model.rows().row(RowId(1));
+    let buffer = &mut RowBuffer::default();
+    let row = read.model.rows().row(RowId(1), buffer);
     assert_eq!(row.lower, [0.5, 0.4999999995]);
     assert!(row.upper[0] > 0.5 && row.upper[0] + row.upper[1] >= 1.0 && row.upper[1] < 0.500000001);
 }
@@ -115,10 +116,7 @@ fn long_files_are_read_like_short_ones() {
     let lab = "0=\"init\"\n0: 0\n";
     let model = import_texts(&tra, None, lab).unwrap().model;
     assert_eq!(model.size().transitions, 2 * states * width);
-    assert_eq!(
-        model.rows().row(*model.choices().rows(StateId(19_999)).collect::<Vec<_>>().last().unwrap()).len(),
-        8
-    );
+    assert_eq!(model.rows().row_len(model.choices().rows(StateId(19_999)).last().unwrap()), 8);
     let wrong = tra.replacen("\n19000 1 0 ", "\n19000 1 x ", 1);
     assert_refused("long", import_texts(&wrong, None, lab), "m.tra:304010:9", &["`x`"]);
 }
@@ -138,7 +136,7 @@ fn a_choice_may_be_longer_than_a_chunk() {
     (0..width).rev().for_each(|to| tra += &format!("0 0 {to} [0.0,0.00002]\n"));
     tra += "7 0 7 1\n";
     let model = import_texts(&tra, None, "0=\"init\"\n0: 0\n").unwrap().model;
-    assert_eq!(model.rows().row(RowId(0)).len(), width);
+    assert_eq!(model.rows().to_stored().row(RowId(0)).len(), width);
     assert!(model.choices().is_absorbing(StateId(7)) && model.choices().is_deadlock(StateId(8)));
 }
 

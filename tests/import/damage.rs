@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use imdp::formats::{Imported, Warning};
-use imdp::model::{IntervalMdp, StateId, StateVariable};
+use imdp::model::{IntervalMdp, RowBuffer, StateId, StateVariable};
 use proptest::prelude::*;
 
 use super::{Files, LAB, STA, TRA};
@@ -42,7 +42,8 @@ fn transitions_of(model: &IntervalMdp) -> Transitions {
             transitions.insert((state, 0, state), (1.0, 1.0));
         }
         for (choice, row) in (0..).zip(model.choices().rows(StateId(state))) {
-            let row = model.rows().row(row);
+            let buffer = &mut RowBuffer::default();
+            let row = model.rows().row(row, buffer);
             for (i, &successor) in row.successors.iter().enumerate() {
                 transitions.insert((state, choice, successor.0), (row.lower[i], row.upper[i]));
             }

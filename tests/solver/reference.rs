@@ -1,6 +1,6 @@
 //! Exact values by brute force: every policy against every vertex of every row, in rationals.
 
-use imdp::model::{IntervalMdp, RowId, StateId, StateSet};
+use imdp::model::{IntervalMdp, RowBuffer, RowId, StateId, StateSet};
 use imdp::numeric::from_decimal;
 use num_rational::{BigRational, Ratio};
 use num_traits::{One, ToPrimitive, Zero};
@@ -58,7 +58,8 @@ fn vertices(model: &IntervalMdp) -> Vec<Vec<Vec<Exact>>> {
         }
         all
     };
-    model.rows().iter().map(of_row).collect()
+    let rows = model.rows().to_stored();
+    rows.iter().map(of_row).collect()
 }
 
 /// The probability to reach the goal in a Markov chain; `None` rows stay.
@@ -196,7 +197,8 @@ pub fn bounded(
         (0..n).map(|s| BigRational::from_integer(i64::from(goal.contains(s)).into())).collect();
     for _ in 0..steps {
         let row_value = |id: RowId| {
-            let row = model.rows().row(RowId(id.0));
+            let buffer = &mut RowBuffer::default();
+            let row = model.rows().row(RowId(id.0), buffer);
             let mut order: Vec<usize> = (0..row.len()).collect();
             order.sort_by_key(|&i| values[row.successors[i].index()].clone());
             if nature_max {

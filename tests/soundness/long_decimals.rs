@@ -97,8 +97,8 @@ fn conversions_keep_the_number_or_refuse() {
         let (first, again) =
             (model(&format!("long/{name}.tra")).model, prism::import(&path("tra"), None, None));
         let exact = |model: &IntervalMdp| -> Vec<_> {
-            let rows = model.rows().iter();
-            rows.flat_map(|row| row.exact.iter().map(|bound| bound.value.to_string())).collect()
+            let rows = model.rows().to_stored();
+            rows.iter().flat_map(|row| row.exact.iter().map(|bound| bound.value.to_string())).collect()
         };
         assert_eq!(exact(&first), exact(&again.unwrap().model), "{name}");
         for extension in ["umb", "dynabs"] {

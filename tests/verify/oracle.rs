@@ -1,7 +1,7 @@
 //! Steps of certificates judged by the definitions, slowly and in rationals throughout.
 
 use imdp::certificate::Step;
-use imdp::model::{IntervalMdp, RowId, StateId, StateSet};
+use imdp::model::{IntervalMdp, RowBuffer, RowId, StateId, StateSet};
 use imdp::numeric::{Rational, from_decimal, from_dyadic};
 use imdp::property::{Property, QueryKind};
 use num_traits::{One, Zero};
@@ -46,7 +46,8 @@ impl<'a> Oracle<'a> {
 
     /// `opt_p p·V` by the definition: every bound a rational, mass poured in the order of the values.
     pub fn row(&self, id: u32, values: &[f64]) -> Rational {
-        let row = self.model.rows().row(RowId(id));
+        let buffer = &mut RowBuffer::default();
+        let row = self.model.rows().row(RowId(id), buffer);
         let value = |i: usize| rational(values[row.successors[i].index()]);
         let mut order: Vec<usize> = (0..row.len()).collect();
         order.sort_by_key(|&i| value(i));

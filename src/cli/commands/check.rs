@@ -8,6 +8,7 @@ use super::report::{ReportArguments, run as report};
 use super::simulate::{SimulateArguments, run as simulate};
 use super::solve::{SolveArguments, run as solve};
 use super::verify::{VerifyArguments, run as verify};
+use crate::memory::{bytes, use_memory};
 use crate::{CliError, use_threads};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -22,6 +23,10 @@ pub struct CheckArguments {
     /// Use this many threads; no result depends on it.
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
+
+    /// Refuse what needs more memory than this, such as 500M or 16G.
+    #[arg(long, global = true, value_name = "LIMIT", value_parser = bytes)]
+    memory: Option<u64>,
 }
 
 #[derive(Clone, Debug, Subcommand)]
@@ -55,6 +60,7 @@ the bounds straddle the threshold, or an engine gave no answer), 4 I/O, memory o
 /// [`CliError`], which knows its exit code.
 pub fn run(arguments: &CheckArguments) -> Result<ExitCode, CliError> {
     use_threads(arguments.threads)?;
+    use_memory(arguments.memory);
     match &arguments.command {
         Command::Solve(arguments) => solve(arguments),
         Command::Controller(arguments) => controller(arguments),

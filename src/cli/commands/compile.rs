@@ -2,6 +2,7 @@
 
 use super::compile_inputs;
 use super::solve::LimitArguments;
+use crate::memory::{bytes, peak, use_memory};
 use crate::results::{PropertyResult, exit_code, table};
 use crate::summary::{memory, summary};
 use crate::{Bars, CliError, EncodingName, FormatName, print, use_threads, warn};
@@ -81,6 +82,10 @@ pub struct CompileArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
 
+    /// Refuse what needs more memory than this, such as 500M or 16G.
+    #[arg(long, value_name = "LIMIT", value_parser = bytes)]
+    memory: Option<u64>,
+
     /// Write a starter model to FILE.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["model", "output", "schema"])]
     init: Option<PathBuf>,
@@ -116,6 +121,7 @@ pub fn run(arguments: &CompileArguments) -> Result<ExitCode, CliError> {
         write_starter(file, arguments.quiet)?;
     } else if let Some(model) = &arguments.model {
         use_threads(arguments.threads)?;
+        use_memory(arguments.memory);
         return compile_model(arguments, model);
     }
     Ok(ExitCode::SUCCESS)
@@ -300,7 +306,7 @@ fn report(
             text += &format!("warning: {warning}\n");
         }
         let times: Vec<_> = phases.iter().map(|(name, time)| format!("{name} {time:.1?}")).collect();
-        text += &format!("times: {}\n", times.join(", "));
+        text += &format!("times: {}{}\n", times.join(", "), peak());
         warn(&text);
     }
     if arguments.json {

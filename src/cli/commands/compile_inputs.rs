@@ -1,6 +1,7 @@
 //! `dynabs-compile` for actions that are inputs.
 
 use crate::input_summary::{InputResult, summary};
+use crate::memory::peak;
 use crate::{Bars, CliError, print, warn};
 use dynabs::abstraction::inputs::{InputAbstraction, InputsError};
 use dynabs::model_file::Document;
@@ -71,7 +72,7 @@ pub(super) fn compile_inputs(
     if !wanted.quiet {
         manifest.warnings.iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
         let times: Vec<_> = phases.iter().map(|(name, time)| format!("{name} {time:.1?}")).collect();
-        warn(&format!("times: {}\n", times.join(", ")));
+        warn(&format!("times: {}{}\n", times.join(", "), peak()));
     }
     if wanted.json {
         let seconds: Map<String, Value> =

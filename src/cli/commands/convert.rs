@@ -124,7 +124,7 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
             warnings.push(format!("{format} has no place for labels and variables"));
         }
     }
-    if format == Format::Prism && model.rows().iter().any(|row| row.lower.contains(&0.0)) {
+    if format == Format::Prism && model.rows().any(|row| row.lower.contains(&0.0)) {
         warnings.push(format!("lower bounds of 0 are written as {RAISED_LOWER_BOUND:e}: PRISM refuses 0"));
     }
     bars.catch_interrupts();

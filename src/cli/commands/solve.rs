@@ -3,6 +3,7 @@
 use crate::exports::{write_cell_policy, write_cell_values, write_evaluated, write_policy, write_values};
 use crate::input_run_source::SolvedInputs;
 use crate::input_summary::InputResult;
+use crate::memory::peak;
 use crate::model_source::{LoadedModel, load};
 use crate::questions::{Asked, QuestionArguments};
 use crate::results::{PropertyResult, exit_code, table};
@@ -131,7 +132,7 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
         print(&format!("{:#}\n", report(&loaded.model, &results, &loaded.warnings, reading)))?;
     } else if !arguments.quiet {
         print(&table(&results))?;
-        warn(&format!("times: reading {reading:.1?}, solving {:.1?}\n", start.elapsed() - reading));
+        warn(&format!("times: reading {reading:.1?}, solving {:.1?}{}\n", start.elapsed() - reading, peak()));
     }
     Ok(exit_code(&results))
 }

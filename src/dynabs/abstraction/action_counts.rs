@@ -6,7 +6,7 @@ use super::placement::Placement;
 use super::targets::{Alignment, Targets};
 use super::windows::Windows;
 use crate::noise::NoiseSamples;
-use crate::partition::{CellId, Grid};
+use crate::partition::Grid;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -156,6 +156,11 @@ impl<'a> ActionCounts<'a> {
         self.shared.as_ref()
     }
 
+    /// The cells of the windows of all actions, if coordinates count from their targets; the largest first.
+    pub(super) fn shared_windows(&self) -> &[CellBox] {
+        &self.shared_windows
+    }
+
     /// The coordinates of an action's target in its landing: whatever the samples.
     pub(super) fn target_cell(&self, targets: &Targets, target: usize) -> Vec<i32> {
         let mut cell = vec![0; targets.dimension()];
@@ -200,52 +205,4 @@ impl<'a> ActionCounts<'a> {
             (None, None) => cells,
         }
     }
-}
-
-/// Visits the cells of `window` at `origin` that lie in the grid, in ascending order, with their positions in
-/// `table`.
-pub(super) fn for_each_cell(
-    table: &CellBox,
-    window: &CellBox,
-    origin: &[i32],
-    grid: &Grid,
-    mut visit: impl FnMut(CellId, usize),
-) {
-    let Some(clipped) = clip(window, origin, grid) else { return };
-    let n = origin.len();
-    let mut line = clipped.lower.clone();
-    loop {
-        let (mut cell, mut position) = (0u32, 0usize);
-        for j in 0..n {
-            cell += line[j] as u32 * grid.strides()[j];
-            let extent = (table.upper[j] - table.lower[j]) as usize + 1;
-            position = position * extent + (line[j] - origin[j] - table.lower[j]) as usize;
-        }
-        for i in 0..=(clipped.upper[n - 1] - clipped.lower[n - 1]) as usize {
-            visit(CellId(cell + i as u32), position + i);
-        }
-        let Some(j) = (0..n - 1).rev().find(|&j| line[j] < clipped.upper[j]) else { return };
-        line[j] += 1;
-        line[j + 1..].copy_from_slice(&clipped.lower[j + 1..]);
-    }
-}
-
-/// The part of the window at `origin` that lies in the grid, in cell coordinates; `None` if there is none.
-fn clip(window: &CellBox, origin: &[i32], grid: &Grid) -> Option<CellBox> {
-    let mut clipped = window.clone();
-    for (j, axis) in grid.axes().iter().enumerate() {
-        clipped.lower[j] = (window.lower[j] + origin[j]).max(0);
-        clipped.upper[j] = (window.upper[j] + origin[j]).min(axis.cells() as i32 - 1);
-        if clipped.lower[j] > clipped.upper[j] {
-            return None;
-        }
-    }
-    Some(clipped)
-}
-
-/// Whether the window at `origin` lies in the grid altogether.
-pub(super) fn is_inside(window: &CellBox, origin: &[i32], grid: &Grid) -> bool {
-    (grid.axes().iter().enumerate()).all(|(j, axis)| {
-        window.lower[j] + origin[j] >= 0 && window.upper[j] + origin[j] < axis.cells() as i32
-    })
 }

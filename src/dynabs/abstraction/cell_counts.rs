@@ -1,11 +1,9 @@
 //! Where samples land: how often each cell, counted from the target's cell, is hit.
 
 use super::cell_box::CellBox;
-use super::outcomes::{Outcome, Outcomes};
 use super::placement::Placement;
 use super::windows::WINDOWS;
 use crate::noise::NoiseSamples;
-use crate::partition::{CellId, Grid};
 use std::collections::BTreeMap;
 
 /// How many samples lie for certain, and how many possibly, in a set.
@@ -66,6 +64,11 @@ impl CellCounts {
         Self { groups, table, counts }
     }
 
+    /// Distinct cells, or boxes of cells, with the samples that land there.
+    pub(super) fn groups(&self) -> &[(CellBox, Count)] {
+        &self.groups
+    }
+
     /// The cells that have counts: a box with all samples.
     pub fn table(&self) -> &CellBox {
         &self.table
@@ -75,30 +78,11 @@ impl CellCounts {
     pub fn counts(&self) -> &[Count] {
         &self.counts
     }
-
-    /// How many samples land in goal cells, and how many in lost cells or outside, with origin `origin`.
-    pub fn region_counts(&self, origin: &[i32], grid: &Grid, outcomes: &Outcomes) -> RegionCounts {
-        let mut counts = RegionCounts::default();
-        for (spread, number) in &self.groups {
-            let (mut goal, mut lost, mut cells) = (0usize, 0usize, 0usize);
-            spread.for_each(|cell| {
-                cells += 1;
-                match locate(cell, origin, grid).map(|cell| outcomes.of(cell)) {
-                    Some(Outcome::Reached) => goal += 1,
-                    Some(Outcome::Open) => {}
-                    Some(Outcome::Lost) | None => lost += 1,
-                }
-            });
-            counts.goal.add(number, goal == cells, goal > 0);
-            counts.lost.add(number, lost == cells, lost > 0);
-        }
-        counts
-    }
 }
 
 impl Count {
     /// Adds samples that are in the set for certain, or possibly, or not.
-    fn add(&mut self, samples: &Self, is_certain: bool, is_possible: bool) {
+    pub(super) fn add(&mut self, samples: &Self, is_certain: bool, is_possible: bool) {
         if is_certain {
             self.certain.iter_mut().zip(samples.certain).for_each(|(own, more)| *own += more);
         }
@@ -106,22 +90,19 @@ impl Count {
             self.possible += samples.possible;
         }
     }
-}
 
-/// The cell at `coordinates` from `origin`, if it is in the grid.
-pub(super) fn locate(coordinates: &[i32], origin: &[i32], grid: &Grid) -> Option<CellId> {
-    let mut id = 0;
-    for (j, axis) in grid.axes().iter().enumerate() {
-        let index = u32::try_from(coordinates[j] + origin[j]).ok().filter(|&i| i < axis.cells())?;
-        id += index * grid.strides()[j];
+    /// Takes out samples that had been added as certain.
+    pub(super) fn subtract(&mut self, samples: &Self) {
+        self.certain.iter_mut().zip(samples.certain).for_each(|(own, less)| *own -= less);
+        self.possible -= samples.possible;
     }
-    Some(CellId(id))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::abstraction::Alignment;
+    use crate::partition::Grid;
     use imdp::numeric::{Rational, from_decimal};
 
     fn line(cells: u32) -> (Grid, Vec<Alignment>) {

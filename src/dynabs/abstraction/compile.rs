@@ -3,7 +3,7 @@
 use super::base::{Base, Intervals};
 use super::enabled::EnabledActions;
 use super::outcomes::Outcomes;
-use super::pac::PacRows;
+use super::pac::{PacRows, Preference};
 use super::states::{FAILED, REACHED, StateSpace, labels};
 use super::steering::Steering;
 use super::targets::Targets;
@@ -15,8 +15,8 @@ use crate::problem::{Probabilities, Problem};
 use crate::system::FeedbackLaw;
 use crate::task::Aim;
 use imdp::model::{
-    ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, ModelKind, Parts, RowRange, Rows, StateId,
-    StateSet,
+    ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, ModelKind, Parts, RowRange, RowSet,
+    StateId, StateSet,
 };
 use imdp::progress::Progress;
 use imdp::property::{PathFormula, Property, Resolution, StateFormula, Threshold, ThresholdComparison};
@@ -89,7 +89,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
     let is_pac = matches!(intervals, Intervals::Pac(_));
     let (reached, failed) = outcome_states(problem, &states, &blocked, is_pac);
     let property = task_property(problem);
-    let model_of = |rows: Rows| -> Result<IntervalMdp, ImdpError> {
+    let model_of = |rows: RowSet| -> Result<IntervalMdp, ImdpError> {
         IntervalMdp::new(Parts {
             kind: ModelKind::Imdp,
             rows,
@@ -110,9 +110,10 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
         Intervals::Pac(prepared) => {
             let outcomes = Outcomes::new(problem.labels(), |cell| enabling.is_idle(cell));
             let pac = PacRows::new(problem, *prepared, &enabling, placements, &states, &outcomes)?;
-            let rows = pac.rows(progress);
+            let rows = pac.rows(Preference::LeastFailing, "rows", progress);
             clock.lap("rows");
-            let rows = pac.better_rows(&scout(&model_of(rows)?, &property)?, progress);
+            let values = scout(&model_of(rows)?, &property)?;
+            let rows = pac.rows(Preference::Worth(&values), "choice of windows", progress);
             clock.lap("choice of windows");
             (rows, Evidence::Samples(pac.evidence()))
         }

@@ -28,7 +28,8 @@ const CELLS_PER_TASK: usize = 256;
 /// `α·d_a ≤ β − γ·c − |γ|·w/2`,
 ///
 /// whose right-hand side is one number per cell: the enabled targets are the lattice points of a polytope.
-/// They are found dimension by dimension; the last dimension gives a range directly.
+/// They are found dimension by dimension; the last dimension gives a range directly, and so does a slab of the lattice in
+/// which everything is enabled. What it takes follows the number of ranges found, not that of targets.
 pub fn enabled_actions(
     grid: &Grid,
     cells: &[CellId],
@@ -81,56 +82,80 @@ impl EnabledActions {
 /// The scan over target points, prepared for one set of constraints.
 struct Scan<'a> {
     constraints: &'a [SteeringConstraint],
-    /// Per dimension `k` and constraint, the least that dimensions after `k` can contribute to `α·d`.
+    /// Per dimension `k` and constraint, the least that dimensions after `k` can contribute to `α·d`,
     least_after: Vec<Vec<f64>>,
+    /// the most,
+    most_after: Vec<Vec<f64>>,
+    /// and a bound on `|α·d|` over dimensions from `k` on.
+    magnitudes: Vec<Vec<f64>>,
 }
 
 impl<'a> Scan<'a> {
     fn new(targets: &Targets, constraints: &'a [SteeringConstraint]) -> Self {
-        let Some(axes) = targets.axes() else { return Self { constraints, least_after: vec![] } };
-        let mut least_after = vec![vec![0.0; constraints.len()]; axes.len()];
-        for k in (1..axes.len()).rev() {
+        let axes = targets.axes().unwrap_or_default();
+        let zero = vec![vec![0.0; constraints.len()]; axes.len()];
+        let mut scan =
+            Self { constraints, least_after: zero.clone(), most_after: zero.clone(), magnitudes: zero };
+        for k in (0..axes.len()).rev() {
             let ends = [axes[k][0], axes[k][axes[k].len() - 1]];
             for (i, constraint) in constraints.iter().enumerate() {
                 let [a, b] = ends.map(|x| constraint.target[k] * x);
-                least_after[k - 1][i] = least_after[k][i] + a.min(b);
+                let after = scan.magnitudes.get(k + 1).map_or(0.0, |after| after[i]);
+                scan.magnitudes[k][i] = after + a.abs().max(b.abs());
+                if k > 0 {
+                    scan.least_after[k - 1][i] = scan.least_after[k][i] + a.min(b);
+                    scan.most_after[k - 1][i] = scan.most_after[k][i] + a.max(b);
+                }
             }
         }
-        Self { constraints, least_after }
+        scan
     }
 
     fn run(&self, targets: &Targets, slack: &[f64], ranges: &mut Vec<RowRange>) {
         match targets.axes() {
-            Some(axes) => self.lattice(axes, 0, 0, slack, ranges),
-            None => self.list(targets, slack, ranges),
+            Some(axes) => self.lattice(axes, 0, 0, slack, &mut Found { start: ranges.len(), ranges }),
+            None => self.list(targets, slack, &mut Found { start: ranges.len(), ranges }),
         }
     }
 
     /// Fixes the coordinate of dimension `k`; `slack` is what the earlier dimensions have left.
-    fn lattice(&self, axes: &[Vec<f64>], k: usize, base: usize, slack: &[f64], ranges: &mut Vec<RowRange>) {
+    fn lattice(&self, axes: &[Vec<f64>], k: usize, base: usize, slack: &[f64], found: &mut Found<'_>) {
         let axis = &axes[k];
-        let Some((first, last)) = self.feasible(axis, k, slack) else { return };
+        let least = |i: usize| slack[i] - self.least_after[k][i];
+        let Some((first, last)) = self.feasible(axis, k, least) else { return };
         let base = base * axis.len();
         if k + 1 == axes.len() {
-            push(ranges, base + first, base + last);
+            found.push(base + first, base + last);
             return;
         }
+        // Where there is room for whatever comes after, with more than rounding to spare, it need not be looked at.
+        let spare = 16.0 * (axes.len() + 1) as f64 * f64::EPSILON;
+        let most =
+            |i: usize| slack[i] - self.most_after[k][i] - spare * (slack[i].abs() + self.magnitudes[k][i]);
+        let whole = self.feasible(axis, k, most);
+        let behind: usize = axes[k + 1..].iter().map(Vec::len).product();
         let mut rest = vec![0.0; slack.len()];
         for (i, &x) in axis.iter().enumerate().take(last + 1).skip(first) {
+            if let Some((first, last)) = whole.filter(|&(first, last)| first <= i && i <= last) {
+                if i == first {
+                    found.push((base + first) * behind, (base + last + 1) * behind - 1);
+                }
+                continue;
+            }
             for ((rest, slack), constraint) in rest.iter_mut().zip(slack).zip(self.constraints) {
                 *rest = slack - constraint.target[k] * x;
             }
-            self.lattice(axes, k + 1, base + i, &rest, ranges);
+            self.lattice(axes, k + 1, base + i, &rest, found);
         }
     }
 
-    /// The indices along dimension `k` that no constraint rules out yet, as an inclusive range.
-    fn feasible(&self, axis: &[f64], k: usize, slack: &[f64]) -> Option<(usize, usize)> {
+    /// The indices along dimension `k` for which there is room in all constraints, as an inclusive range.
+    fn feasible(&self, axis: &[f64], k: usize, room: impl Fn(usize) -> f64) -> Option<(usize, usize)> {
         let (mut first, mut last) = (0usize, axis.len() - 1);
         let spacing = if axis.len() > 1 { (axis[last] - axis[0]) / last as f64 } else { 1.0 };
         for (i, constraint) in self.constraints.iter().enumerate() {
             let alpha = constraint.target[k];
-            let room = slack[i] - self.least_after[k][i];
+            let room = room(i);
             // Monotone in x even in floating point, so the feasible indices are a range.
             let fits = |index: usize| alpha * axis[index] <= room;
             // No number, or less than any: a sum that overflowed decides for nobody.
@@ -173,7 +198,7 @@ impl<'a> Scan<'a> {
         Some((first, last))
     }
 
-    fn list(&self, targets: &Targets, slack: &[f64], ranges: &mut Vec<RowRange>) {
+    fn list(&self, targets: &Targets, slack: &[f64], found: &mut Found<'_>) {
         let mut point = vec![0.0; targets.dimension()];
         for target in 0..targets.len() {
             targets.point(target, &mut point);
@@ -181,15 +206,27 @@ impl<'a> Scan<'a> {
                 constraint.target.iter().zip(&point).fold(slack, |rest, (alpha, x)| rest - alpha * x) >= 0.0
             });
             if enabled {
-                push(ranges, target, target);
+                found.push(target, target);
             }
         }
     }
 }
 
-/// Adds the rows of a range of targets. Ranges of one cell that continue each other are merged when choices are built.
-fn push(ranges: &mut Vec<RowRange>, first: usize, last: usize) {
-    ranges.push(RowRange { first: RowId::from_index(first), last: RowId::from_index(last) });
+/// The ranges of one cell, behind those of others.
+struct Found<'a> {
+    start: usize,
+    ranges: &'a mut Vec<RowRange>,
+}
+
+impl Found<'_> {
+    /// Adds the rows of a range of targets, merged with what they continue.
+    fn push(&mut self, first: usize, last: usize) {
+        let (first, last) = (RowId::from_index(first), RowId::from_index(last));
+        match self.ranges[self.start..].last_mut() {
+            Some(previous) if previous.last.next() == first => previous.last = last,
+            _ => self.ranges.push(RowRange { first, last }),
+        }
+    }
 }
 
 #[cfg(test)]

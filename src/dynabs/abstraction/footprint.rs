@@ -22,6 +22,9 @@ const RANGE_BYTES: u64 = 40;
 /// Per entry of a row, successor and bounds: in two models, and in the pieces that they are put together from.
 const ENTRY_BYTES: u64 = 60;
 
+/// Per row that is a shift of a stencil: which, its length, what its special states get; in two models.
+const SHIFTED_ROW_BYTES: u64 = 24;
+
 /// How many cells say how many ranges all have.
 const PROBED_CELLS: u32 = 512;
 
@@ -46,9 +49,17 @@ impl Footprint {
         Self { needs }
     }
 
-    /// And what its rows take, by an estimate.
+    /// And what its rows take; by an estimate, if they are not shifts of one another.
     pub(super) fn with_rows(mut self, problem: &Problem, steering: &Steering) -> Self {
-        self.needs.push(need_of_rows(problem, entries(problem, steering.targets.len() as u64)));
+        let targets = steering.targets.len() as u64;
+        self.needs.push(match steering.targets.alignment() {
+            Some(_) => Need {
+                what: "the rows of the model",
+                bytes: targets.saturating_mul(SHIFTED_ROW_BYTES),
+                field: field_of_targets(problem),
+            },
+            None => need_of_rows(problem, entries(problem, targets)),
+        });
         self
     }
 
@@ -107,13 +118,9 @@ fn ranges(problem: &Problem, steering: &Steering) -> u64 {
     found.saturating_mul(u64::from(cells)) / u64::from(probed) * 5 / 4
 }
 
-/// How many entries the rows of so many targets have at most: the cells in a box around all samples, at every target.
-///
-/// In a box every dimension is by itself: from the centers of all cells together, `Π_j Σ_i |(i + [a_j, b_j]) ∩ [0, n_j)|` with
-/// the offsets `a_j … b_j` that samples have. Of other targets each is taken to be at the best place.
+/// How many entries the rows of so many targets have at most: the cells in a box around all samples, wherever a target sits.
 fn entries(problem: &Problem, targets: u64) -> u64 {
     let samples = &problem.noise().samples;
-    let centers = matches!(problem.actions(), Actions::Targets(TargetPoints::Centers));
     let along = problem.grid().axes().iter().enumerate().map(|(j, axis)| {
         let width = to_f64(axis.width());
         let lowest = samples.iter().map(|sample| sample[j] / width).fold(0.0, f64::min);
@@ -121,12 +128,7 @@ fn entries(problem: &Problem, targets: u64) -> u64 {
         let cells = i64::from(axis.cells());
         // As many cells as there are on either side say all; a float that is larger ends there.
         let (a, b) = ((lowest + 0.5).floor() as i64, (highest + 0.5).floor() as i64);
-        let (a, b) = (a.max(-cells), b.min(cells));
-        if centers {
-            (0..cells).map(|i| ((i + b).min(cells - 1) - (i + a).max(0) + 1).max(0) as u64).sum()
-        } else {
-            (b - a + 2).min(cells) as u64
-        }
+        (b.min(cells) - a.max(-cells) + 2).min(cells) as u64
     });
-    along.fold(if centers { 1 } else { targets }, u64::saturating_mul)
+    along.fold(targets, u64::saturating_mul)
 }

@@ -27,6 +27,7 @@ mod rooms;
 mod row_tasks;
 mod states;
 mod steering;
+mod stencil;
 mod targets;
 mod windows;
 

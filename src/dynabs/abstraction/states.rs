@@ -18,8 +18,6 @@ pub(super) struct StateSpace {
 pub(super) const FAILED: StateId = StateId(0);
 /// In `pac` mode: the state for all goal cells.
 pub(super) const REACHED: StateId = StateId(1);
-/// In `reference` mode: the state for everything outside the partition.
-pub(super) const OUTSIDE: StateId = StateId(0);
 
 impl StateSpace {
     /// `pac`: state 0 is `failed`, 1 is `reached` if there is a goal, then the ordinary cells.

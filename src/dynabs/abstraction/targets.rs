@@ -107,6 +107,14 @@ impl Targets {
         }
     }
 
+    /// The cells of the targets' coordinates per dimension, if all their combinations are targets.
+    pub(super) fn cells_along_axes(&self) -> Option<&[Vec<i32>]> {
+        match &self.layout {
+            Layout::Lattice { cells, .. } => Some(cells),
+            Layout::List { .. } => None,
+        }
+    }
+
     /// Writes the coordinates of a target into `point`.
     pub fn point(&self, target: usize, point: &mut [f64]) {
         let target = self.original(target);

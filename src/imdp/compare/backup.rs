@@ -1,6 +1,6 @@
 //! One step of robust value iteration in plain floating point: to weigh actions, not to prove anything.
 
-use crate::model::{IntervalMdp, RowId, StateId};
+use crate::model::{IntervalMdp, RowBuffer, RowId, StateId};
 use crate::property::{Query, QueryKind};
 
 /// A query whose actions are to be weighed.
@@ -22,7 +22,8 @@ impl<'a> Backup<'a> {
 
     /// `opt_p p·V` over the distributions `p` of a row.
     pub(crate) fn row_value(&self, row: RowId, values: &[f64]) -> f64 {
-        let row = self.model.rows().row(row);
+        let buffer = &mut RowBuffer::default();
+        let row = self.model.rows().row(row, buffer);
         let value = |at: &usize| values[row.successors[*at].index()];
         let mut order: Vec<usize> = (0..row.len()).collect();
         order.sort_by(|a, b| value(a).total_cmp(&value(b)));

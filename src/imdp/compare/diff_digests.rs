@@ -3,7 +3,7 @@
 use super::digest::{distinct_intervals, hashes, labels};
 use super::used_rows::UsedRows;
 use super::{DiffOptions, Differences, ModelDigest, Record, Section, Tolerance};
-use crate::model::IntervalMdp;
+use crate::model::{IntervalMdp, RowBuffer};
 use std::collections::HashMap;
 
 /// Where a model uses a row or an interval first: `state 3, choice 0, successor 7`.
@@ -144,8 +144,9 @@ fn diff_intervals(
 
 /// Where a model has an interval first.
 fn interval_place(model: &IntervalMdp, used: &UsedRows, (lower, upper, _): (f64, f64, u64)) -> String {
+    let mut buffer = RowBuffer::default();
     for (&row, (state, choice)) in used.rows.iter().zip(&used.first_use) {
-        let row = model.rows().row(row);
+        let row = model.rows().row(row, &mut buffer);
         let at = row.lower.iter().zip(row.upper).position(|(&l, &u)| l == lower && u == upper);
         if let Some(at) = at {
             return format!("state {state}, choice {choice}, successor {}", row.successors[at]);

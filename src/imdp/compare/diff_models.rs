@@ -3,7 +3,7 @@
 use super::actions::{Actions, Name};
 use super::paired_choices::PairedChoices;
 use super::{DiffOptions, Differences, Section};
-use crate::model::{IntervalMdp, Row, RowId, StateId};
+use crate::model::{IntervalMdp, Row, RowBuffer, RowId, StateId};
 use std::collections::HashMap;
 
 /// Where a pair of rows meets first, and how often.
@@ -43,8 +43,10 @@ pub(super) fn diff_models(
             order[at].1.count += 1;
         }
     }
+    let (mut of_left, mut of_right) = (RowBuffer::default(), RowBuffer::default());
     for ((a, b), used) in order {
-        diff_rows((left.rows().row(a), right.rows().row(b)), &used, options, &mut intervals);
+        let rows = (left.rows().row(a, &mut of_left), right.rows().row(b, &mut of_right));
+        diff_rows(rows, &used, options, &mut intervals);
     }
     out.sections.extend([choices, intervals]);
 }

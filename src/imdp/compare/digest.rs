@@ -2,7 +2,7 @@
 
 use super::used_rows::UsedRows;
 use crate::formats::sha256_hex;
-use crate::model::{IntervalMdp, StateId, StateSet};
+use crate::model::{IntervalMdp, RowBuffer, StateId, StateSet};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, HashMap};
@@ -105,8 +105,9 @@ pub(super) fn bits(lower: f64, upper: f64) -> (u64, u64) {
 /// The distinct intervals and how many entries have them, ascending.
 pub(super) fn distinct_intervals(model: &IntervalMdp, used: &UsedRows) -> Vec<(f64, f64, u64)> {
     let mut counts: BTreeMap<(u64, u64), u64> = BTreeMap::new();
+    let mut buffer = RowBuffer::default();
     for &row in &used.rows {
-        let row = model.rows().row(row);
+        let row = model.rows().row(row, &mut buffer);
         for (&lower, &upper) in row.lower.iter().zip(row.upper) {
             *counts.entry(bits(lower, upper)).or_default() += 1;
         }
@@ -121,11 +122,12 @@ pub(super) fn hashes(
     used: &UsedRows,
     index: impl Fn(f64, f64) -> u32,
 ) -> (Vec<String>, Vec<String>, String) {
+    let mut buffer = RowBuffer::default();
     let digests: Vec<[u8; 32]> = used
         .rows
         .iter()
         .map(|&row| {
-            let (row, mut hash) = (model.rows().row(row), Sha256::new());
+            let (row, mut hash) = (model.rows().row(row, &mut buffer), Sha256::new());
             for ((successor, &lower), &upper) in row.successors.iter().zip(row.lower).zip(row.upper) {
                 hash.update(successor.0.to_le_bytes());
                 hash.update(index(lower, upper).to_le_bytes());

@@ -1,6 +1,6 @@
 //! The distinct rows that some state uses.
 
-use crate::model::{End, IntervalMdp, Row, RowId, StateId};
+use crate::model::{End, IntervalMdp, Row, RowBuffer, RowId, StateId};
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
 
@@ -21,12 +21,14 @@ impl UsedRows {
     pub(super) fn new(model: &IntervalMdp) -> Self {
         let mut used = Self { rows: vec![], first_use: vec![], index: vec![u32::MAX; model.rows().len()] };
         let mut known: HashMap<[u8; 32], u32> = HashMap::new();
+        let mut buffer = RowBuffer::default();
         for state in StateId::first(model.num_states()) {
             for (choice, row) in (0..).zip(model.choices().rows(state)) {
                 if used.index[row.index()] != u32::MAX {
                     continue;
                 }
-                used.index[row.index()] = *known.entry(content(model.rows().row(row))).or_insert_with(|| {
+                let content = content(model.rows().row(row, &mut buffer));
+                used.index[row.index()] = *known.entry(content).or_insert_with(|| {
                     used.rows.push(row);
                     used.first_use.push((state, choice));
                     used.rows.len() as u32 - 1

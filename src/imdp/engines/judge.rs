@@ -25,7 +25,7 @@ pub(super) fn tolerance(
     model: &IntervalMdp,
     stopping: &str,
 ) -> (Tolerance, String) {
-    let longest = model.rows().iter().map(|row| row.len()).max().unwrap_or(0) as f64;
+    let longest = model.rows().longest() as f64;
     match question.steps() {
         Some(steps) => {
             let absolute = BOUNDED.max(4.0 * steps as f64 * (longest + 2.0) * UNIT_ROUNDOFF);

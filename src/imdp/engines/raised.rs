@@ -9,11 +9,11 @@ use crate::model::{End, ImdpError, IntervalMdp, Rows};
 /// # Errors
 /// Those of [`IntervalMdp::new`]; none, if `model` is an interval MDP.
 pub fn raised(model: &IntervalMdp) -> Result<Option<IntervalMdp>, ImdpError> {
-    if model.rows().iter().all(|row| row.lower.iter().all(|&lower| lower > 0.0)) {
+    if !model.rows().any(|row| row.lower.contains(&0.0)) {
         return Ok(None);
     }
     let mut rows = Rows::with_capacity(model.rows().len(), model.rows().num_entries());
-    for row in model.rows().iter() {
+    model.rows().for_each(|_, row| {
         for (i, &successor) in row.successors.iter().enumerate() {
             let (lower, upper) = (row.lower[i], row.upper[i]);
             let tiny = 0.0 < upper && upper < RAISED_LOWER_BOUND;
@@ -25,6 +25,6 @@ pub fn raised(model: &IntervalMdp) -> Result<Option<IntervalMdp>, ImdpError> {
             }
         }
         rows.finish_row();
-    }
+    });
     model.with_rows(rows).map(Some)
 }

@@ -65,5 +65,5 @@ fn other(optimum: Optimum, model: &IntervalMdp, nature: Option<Nature>) -> Optio
 
 /// Whether all intervals are points.
 fn is_point(model: &IntervalMdp) -> bool {
-    model.rows().iter().all(|row| row.lower == row.upper)
+    !model.rows().any(|row| row.lower != row.upper)
 }

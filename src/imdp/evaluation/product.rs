@@ -4,8 +4,8 @@ use super::expression::Evaluator;
 use super::{EvaluationError, Known, Truth};
 use crate::automaton::{Acceptor, Automaton, Condition, Ltl};
 use crate::model::{
-    ActionNames, ChoicesBuilder, IntervalMdp, Labels, Parts, RewardStructure, RowId, RowRange, Rows, StateId,
-    StateSet, StateVariables, require_memory,
+    ActionNames, ChoicesBuilder, IntervalMdp, Labels, Parts, RewardStructure, RowBuffer, RowId, RowRange,
+    Rows, StateId, StateSet, StateVariables, require_memory,
 };
 use crate::property::Resolution;
 use crate::solver::{Acceptance, Event, accepting_states};
@@ -139,7 +139,7 @@ impl Product {
         let starts = StateId::first(model.num_states())
             .map(|state| pairs.enter(state, 0))
             .collect::<Result<Vec<_>, _>>()?;
-        let mut rows = Rows::new();
+        let (mut rows, mut buffer) = (Rows::new(), RowBuffer::default());
         let mut known: HashMap<(Option<RowId>, StateId, u32), RowId> = HashMap::new();
         let mut choices = ChoicesBuilder::with_capacity(starts.len());
         let (mut satisfied, mut origins) = (vec![], vec![]);
@@ -165,7 +165,7 @@ impl Product {
                 let id = match known.get(&key) {
                     Some(&id) => id,
                     None => {
-                        match row.map(|row| model.rows().row(row)) {
+                        match row.map(|row| model.rows().row(row, &mut buffer)) {
                             None => rows.push_entry(pairs.enter(state, memory)?, 1.0, 1.0),
                             Some(row) => {
                                 let mut entries = vec![];
@@ -238,12 +238,13 @@ impl Product {
                 choice += 1;
                 continue;
             }
+            let (mut of_model_row, mut of_product_row) = (RowBuffer::default(), RowBuffer::default());
             let of_model: Vec<RowId> = model.choices().rows(state).collect();
             for (number, row) in self.model.choices().rows(StateId(product)).enumerate() {
                 let of_branches =
                     self.origins[choice as usize].and_then(|origin| rewards.branches.get(&origin));
                 if let (Some(of_branches), Some(&original)) = (of_branches, of_model.get(number)) {
-                    let original = model.rows().row(original);
+                    let original = model.rows().row(original, &mut of_model_row);
                     let earned = |successor: &StateId| {
                         let (state, _) = self.pairs[successor.index()];
                         original
@@ -251,7 +252,7 @@ impl Product {
                             .binary_search(&state)
                             .map_or(0.0, |position| of_branches[position])
                     };
-                    let row = self.model.rows().row(row);
+                    let row = self.model.rows().row(row, &mut of_product_row);
                     own.branches.insert(choice, row.successors.iter().map(earned).collect());
                 }
                 choice += 1;

@@ -7,7 +7,9 @@ use super::netcdf::{NetcdfError, NetcdfWriter};
 use super::prism::{MAX_COUNT, RewardFile, TraWriter, check_names, write_lab, write_sta};
 use super::umb::{Compression, UmbWriter};
 use super::{Format, native};
-use crate::model::{ExactBound, IntervalMdp, MemoryError, RewardStructure, RowId, StateId, require_memory};
+use crate::model::{
+    ExactBound, IntervalMdp, MemoryError, RewardStructure, RowBuffer, RowId, StateId, require_memory,
+};
 use crate::progress::Progress;
 use std::io::{self, Write};
 
@@ -93,7 +95,8 @@ fn check_bounds(model: &IntervalMdp, format: Format) -> Result<(), WriteError> {
     };
     let fits = |bound: &ExactBound| holds != DOUBLES && bound.value.is_decimal();
     for row in model.rows().inexact_rows() {
-        let entries = model.rows().row(row);
+        let buffer = &mut RowBuffer::default();
+        let entries = model.rows().row(row, buffer);
         let mut bounds = entries.exact.iter();
         if let Some(bound) = bounds.find(|bound| !fits(bound)) {
             let successor = entries.successors[bound.position as usize];

@@ -1,6 +1,7 @@
 //! Which rows a policy may choose from, state by state.
 
 use super::{RowId, StateId, StateSet};
+use std::sync::Arc;
 
 /// The rows `first ..= last`, one choice each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,11 +34,13 @@ impl RowRange {
 /// A state is *absorbing* if its only choice is to stay with probability 1; such self-loops have no row.
 /// A state with neither is a *deadlock*: like PRISM, everything here treats it as absorbing, but it has no
 /// choice that would be written to a file.
+///
+/// Copies share the ranges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choices {
     /// Where the ranges of each state start; one more entry than states.
-    starts: Vec<usize>,
-    ranges: Vec<RowRange>,
+    starts: Arc<[usize]>,
+    ranges: Arc<Vec<RowRange>>,
     absorbing: StateSet,
     num_choices: u64,
 }
@@ -45,7 +48,10 @@ pub struct Choices {
 /// Builds [`Choices`] state by state.
 #[derive(Debug)]
 pub struct ChoicesBuilder {
-    choices: Choices,
+    starts: Vec<usize>,
+    ranges: Vec<RowRange>,
+    absorbing: StateSet,
+    num_choices: u64,
 }
 
 impl Choices {
@@ -140,43 +146,44 @@ impl ChoicesBuilder {
     pub fn with_capacity(states: usize) -> Self {
         let mut starts = Vec::with_capacity(states + 1);
         starts.push(0);
-        let absorbing = StateSet::with_capacity(states);
-        Self { choices: Choices { starts, ranges: vec![], absorbing, num_choices: 0 } }
+        Self { starts, ranges: vec![], absorbing: StateSet::with_capacity(states), num_choices: 0 }
     }
 
     /// Adds the rows `first ..= last` to the state under construction, merged with what they continue.
     pub fn push_range(&mut self, range: RowRange) {
-        let choices = &mut self.choices;
-        choices.num_choices += range.len() as u64;
-        let start = choices.starts.last().copied().unwrap_or_default();
-        if let Some(previous) = choices.ranges[start..].last_mut()
+        self.num_choices += range.len() as u64;
+        let start = self.starts.last().copied().unwrap_or_default();
+        if let Some(previous) = self.ranges[start..].last_mut()
             && previous.last.index() + 1 == range.first.index()
         {
             previous.last = range.last;
         } else {
-            choices.ranges.push(range);
+            self.ranges.push(range);
         }
     }
 
     /// Ends the state under construction.
     pub fn finish_state(&mut self) {
-        self.choices.starts.push(self.choices.ranges.len());
+        self.starts.push(self.ranges.len());
     }
 
     /// Adds a state whose only choice is to stay.
     pub fn push_absorbing(&mut self) {
-        let state = self.choices.num_states();
-        self.choices.absorbing.grow_and_insert(state);
-        self.choices.num_choices += 1;
+        self.absorbing.grow_and_insert(self.starts.len() - 1);
+        self.num_choices += 1;
         self.finish_state();
     }
 
     /// The choices of all states added.
     pub fn finish(mut self) -> Choices {
-        let states = self.choices.num_states();
-        self.choices.absorbing.grow(states);
-        self.choices.ranges.shrink_to_fit();
-        self.choices
+        self.absorbing.grow(self.starts.len() - 1);
+        self.ranges.shrink_to_fit();
+        Choices {
+            starts: self.starts.into(),
+            ranges: Arc::new(self.ranges),
+            absorbing: self.absorbing,
+            num_choices: self.num_choices,
+        }
     }
 }
 

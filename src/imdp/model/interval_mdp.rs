@@ -1,11 +1,15 @@
 //! The interval MDP itself.
 
+use rayon::prelude::*;
 use std::borrow::Cow;
 
 use super::{
-    Choices, Labels, RewardError, RewardStructure, Rewards, RowError, RowId, Rows, StateId, StateSet,
-    StateVariables,
+    Choices, Labels, RewardError, RewardStructure, Rewards, RowBuffer, RowError, RowId, RowSet, StateId,
+    StateSet, StateVariables,
 };
+
+/// Rows are checked in parallel, at least so many at a time.
+const ROWS_PER_TASK: usize = 128;
 
 /// An interval MDP that is known to be well-formed.
 ///
@@ -19,11 +23,11 @@ pub struct IntervalMdp {
 
 /// What an [`IntervalMdp`] is made of.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Parts {
+pub struct Parts<R = RowSet> {
     /// Whether there is a policy at all.
     pub kind: ModelKind,
     /// The interval distributions.
-    pub rows: Rows,
+    pub rows: R,
     /// The choices of every state.
     pub choices: Choices,
     /// What the choices are called.
@@ -174,14 +178,11 @@ impl IntervalMdp {
     ///
     /// # Errors
     /// The first [`ImdpError`] found.
-    pub fn new(parts: Parts) -> Result<Self, ImdpError> {
+    pub fn new<R: Into<RowSet>>(parts: Parts<R>) -> Result<Self, ImdpError> {
+        let Parts { kind, rows, choices, actions, initial, labels, variables } = parts;
+        let parts = Parts { kind, rows: rows.into(), choices, actions, initial, labels, variables };
         let states = parts.choices.num_states();
-        for (row, entries) in RowId::first(parts.rows.len()).zip(parts.rows.iter()) {
-            entries.validate().map_err(|error| ImdpError::Row { row, error })?;
-            if let Some(&successor) = entries.successors.last().filter(|&&s| s.index() >= states) {
-                return Err(ImdpError::Successor { row, successor, states });
-            }
-        }
+        validate_rows(&parts.rows, states)?;
         let rows = parts.rows.len();
         for state in StateId::first(states) {
             let found = parts.choices.ranges(state).iter().map(|range| range.len()).sum();
@@ -210,7 +211,7 @@ impl IntervalMdp {
     ///
     /// # Errors
     /// Those of [`IntervalMdp::new`].
-    pub fn with_rows(&self, rows: Rows) -> Result<Self, ImdpError> {
+    pub fn with_rows(&self, rows: impl Into<RowSet>) -> Result<Self, ImdpError> {
         let Parts { kind, rows: _, choices, actions, initial, labels, variables } = &self.parts;
         Self::new(Parts {
             kind: *kind,
@@ -267,7 +268,7 @@ impl IntervalMdp {
     }
 
     /// The interval distributions.
-    pub fn rows(&self) -> &Rows {
+    pub fn rows(&self) -> &RowSet {
         &self.parts.rows
     }
 
@@ -297,6 +298,23 @@ impl IntervalMdp {
     }
 }
 
+/// Fails with the first row that is none, or leads nowhere.
+fn validate_rows(rows: &RowSet, states: usize) -> Result<(), ImdpError> {
+    let check = |buffer: &mut RowBuffer, index| {
+        let row = RowId::from_index(index);
+        let entries = rows.row(row, buffer);
+        entries.validate().map_err(|error| ImdpError::Row { row, error })?;
+        match entries.successors.last() {
+            Some(&successor) if successor.index() >= states => {
+                Err(ImdpError::Successor { row, successor, states })
+            }
+            _ => Ok(()),
+        }
+    };
+    let checks = (0..rows.len()).into_par_iter().with_min_len(ROWS_PER_TASK);
+    checks.map_init(RowBuffer::default, check).find_first(Result::is_err).unwrap_or(Ok(()))
+}
+
 fn validate_actions(actions: &ActionNames, choices: u64) -> Result<(), ImdpError> {
     let ActionNames::OfChoice { names, ids } = actions else {
         return Ok(());
@@ -316,8 +334,8 @@ fn measure(parts: &Parts) -> Size {
     let mut before = Vec::with_capacity(parts.rows.len() + 1);
     before.push(0u64);
     let mut total = 0;
-    for row in parts.rows.iter() {
-        total += row.len() as u64;
+    for row in RowId::first(parts.rows.len()) {
+        total += parts.rows.row_len(row) as u64;
         before.push(total);
     }
     let states = parts.choices.num_states();

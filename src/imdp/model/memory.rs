@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// More memory would be needed than there is.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -28,6 +29,21 @@ pub enum MemoryLimit {
     ControlGroup,
     /// What this process may use (`ulimit -v`, `ulimit -d`).
     Process,
+    /// What was given to [`limit_memory`].
+    Given,
+}
+
+/// What was given to [`limit_memory`].
+static GIVEN: AtomicU64 = AtomicU64::new(u64::MAX);
+
+/// From now on this process is to use so many bytes at most: what would need more is refused.
+pub fn limit_memory(bytes: u64) {
+    GIVEN.store(bytes, Ordering::Relaxed);
+}
+
+/// The most memory that this process has had at a time, in bytes; `None` where the system does not tell.
+pub fn peak_memory() -> Option<u64> {
+    field(&fs::read_to_string("/proc/self/status").ok()?, "VmHWM:")
 }
 
 impl std::fmt::Display for MemoryLimit {
@@ -36,6 +52,7 @@ impl std::fmt::Display for MemoryLimit {
             Self::Machine => "the machine's",
             Self::ControlGroup => "the control group's limit",
             Self::Process => "the limit of this process, see ulimit",
+            Self::Given => "the limit given by --memory",
         })
     }
 }
@@ -49,13 +66,17 @@ pub fn available_memory() -> Option<(u64, MemoryLimit)> {
     let machine = read("/proc/meminfo").and_then(|text| field(&text, "MemAvailable:"));
     let groups =
         read("/proc/self/cgroup").and_then(|groups| of_control_groups(Path::new("/sys/fs/cgroup"), &groups));
+    let status = read("/proc/self/status");
     let process = read("/proc/self/limits")
-        .zip(read("/proc/self/status"))
-        .and_then(|(limits, status)| of_process(&limits, &status));
+        .zip(status.as_ref())
+        .and_then(|(limits, status)| of_process(&limits, status));
+    let given = Some(GIVEN.load(Ordering::Relaxed)).filter(|&bytes| bytes < u64::MAX);
+    let used = status.as_ref().and_then(|status| field(status, "VmRSS:")).unwrap_or(0);
     let named = [
         machine.map(|bytes| (bytes, MemoryLimit::Machine)),
         groups.map(|bytes| (bytes, MemoryLimit::ControlGroup)),
         process.map(|bytes| (bytes, MemoryLimit::Process)),
+        given.map(|bytes| (bytes.saturating_sub(used), MemoryLimit::Given)),
     ];
     named.into_iter().flatten().min()
 }

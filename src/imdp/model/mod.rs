@@ -12,6 +12,7 @@ mod labels;
 mod memory;
 mod restrict;
 mod rewards;
+mod row_set;
 mod rows;
 
 pub use choices::{Choices, ChoicesBuilder, RowRange};
@@ -20,7 +21,10 @@ pub use fixedbitset::FixedBitSet as StateSet;
 pub use ids::{RowId, StateId};
 pub use interval_mdp::{ActionNames, ImdpError, IntervalMdp, ModelKind, Parts, Size};
 pub use labels::{Labels, StateVariable, StateVariables, VariableValues};
-pub use memory::{GrowingMemory, MemoryError, MemoryLimit, available_memory, require_memory};
+pub use memory::{
+    GrowingMemory, MemoryError, MemoryLimit, available_memory, limit_memory, peak_memory, require_memory,
+};
 pub use restrict::restrict;
 pub use rewards::{RewardError, RewardStructure, Rewards};
+pub use row_set::{ComputedRows, RowBuffer, RowEntries, RowSet};
 pub use rows::{Row, RowError, Rows};

@@ -1,6 +1,8 @@
 //! Sub-models: the same states with fewer choices.
 
-use super::{ActionNames, ChoicesBuilder, ImdpError, IntervalMdp, Parts, RowId, RowRange, Rows, StateId};
+use super::{
+    ActionNames, ChoicesBuilder, ImdpError, IntervalMdp, Parts, RowBuffer, RowId, RowRange, Rows, StateId,
+};
 
 /// The model with only those choices that `keeps(state, choice)` accepts, and only the rows they use.
 ///
@@ -21,9 +23,9 @@ pub fn restrict(model: &IntervalMdp, keeps: impl Fn(StateId, u32) -> bool) -> Re
 
     let mut renumbered = vec![UNUSED; model.rows().len()];
     states().flat_map(kept).for_each(|(_, row)| renumbered[row.index()] = RowId(0));
-    let mut rows = Rows::new();
+    let (mut rows, mut buffer) = (Rows::new(), RowBuffer::default());
     for (id, new) in renumbered.iter_mut().enumerate().filter(|(_, new)| **new != UNUSED) {
-        *new = rows.push_row(model.rows().row(RowId::from_index(id)));
+        *new = rows.push_row(model.rows().row(RowId::from_index(id), &mut buffer));
     }
 
     let mut choices = ChoicesBuilder::with_capacity(model.num_states());
@@ -125,7 +127,7 @@ mod tests {
         let small =
             restrict(&model(ActionNames::OfRow), |state, choice| state != StateId(0) || choice != 0).unwrap();
         assert_eq!(small.rows().len(), 2);
-        assert_eq!(small.rows().row(RowId(0)).successors, [StateId(1)]);
+        assert_eq!(small.rows().row(RowId(0), &mut RowBuffer::default()).successors, [StateId(1)]);
         assert_eq!(small.choices().ranges(StateId(0)), [RowRange { first: RowId(0), last: RowId(1) }]);
         assert!(small.choices().is_absorbing(StateId(1)));
         let names = vec!["a_1".to_owned(), "a_2".to_owned()];

@@ -15,7 +15,7 @@ use super::query::Players;
 use super::range_optimum::RangeOptimum;
 use super::slow::Precise;
 use super::sweep::Sweep;
-use crate::model::{IntervalMdp, RowId, StateId, StateSet};
+use crate::model::{IntervalMdp, RowBuffer, RowId, StateId, StateSet};
 
 /// Raises of a refuted guess are multiplied by powers of 8 up to this one: 8⁸ is 1.7·10⁷.
 const LEAPS: i32 = 8;
@@ -126,9 +126,9 @@ impl<'s, 'a> Component<'s, 'a> {
     pub(super) fn gap_behind(&self) -> f64 {
         let shared = &self.shared;
         let inside = |s: &StateId| self.sweep.states.binary_search(s).is_ok();
-        let mut gap: f64 = 0.0;
+        let (mut gap, mut buffer) = (0f64, RowBuffer::default());
         for row in self.sweep.rows() {
-            let row = shared.model.rows().row(row);
+            let row = shared.model.rows().row(row, &mut buffer);
             let possible = row.successors.iter().zip(row.upper).filter(|(s, u)| **u > 0.0 && !inside(s));
             gap =
                 possible.map(|(&s, _)| shared.upper[s.index()] - shared.lower[s.index()]).fold(gap, f64::max);

@@ -1,32 +1,40 @@
-//! The robust expectation of a row, rounded in a known direction (O-maximization).
+//! The robust expectation of a row, rounded in a known direction, without sorting.
 //!
-//! For a row with bounds `l, u` and values `V` sorted ascending, `T_k` the successors from the `k`-th on
-//! and `V_0 = 0`:
+//! For a row with bounds `l ≤ p ≤ u` and values `V` the least expectation is, by duality of linear programs,
 //!
-//! `min_p p·V = Σ_k (V_k − V_{k−1}) min p(T_k)`, `min p(T) = max(Σ_T l, 1 − Σ_{Tᶜ} u)`,
+//! `min_p p·V = max_τ  Σ l V + τ (1 − Σ l) − Σ (u − l) max(0, τ − V)`,
 //!
-//! which is computed by giving every successor `l` and pouring the slack `1 − Σ l` from the lowest value
-//! upwards, `u − l` each; for the maximum, from the highest value downwards.
+//! a concave function of one number. It is attained where the successors with `V < τ` have just room for the slack `1 − Σ l`
+//! and those with `V = τ` take the rest, so that
+//!
+//! `min_p p·V = Σ l V + Σ_{V<τ} (u − l) V + τ (1 − Σ l − Σ_{V<τ} (u − l))`,
+//!
+//! which is what pouring the slack from the lowest value upwards gives (O-maximization), in any order below `τ`; for the
+//! maximum, `V > τ`. The successor that `τ` belonged to in the last iteration is mostly the right one, or next to it.
 //!
 //! **What "exact" means.** A bound may be the double nearest to a decimal, so it can be read as that
 //! decimal or as the double: `l(1+δ)`, `|δ| ≤ ε = 2⁻⁵³`. The bounds computed here hold for every reading
 //! that admits a distribution. If rounding left none (`Σ l` or `Σ u` on the wrong side of 1 by at most
 //! `m·2⁻⁵³`), the pouring itself is the definition: `l` plus `max(0, 1 − Σ l)` poured, mass 1 in total.
 //!
-//! **Why the rounding is sound.** Let `m` be the row's length. Since `V ≥ 0`, a bound on the mass of every
-//! `T_k` is a bound on the expectation.
+//! **Why the rounding is sound.** Let `m` be the row's length, the values `V_1 ≤ V_2 ≤ …`, `T_k` the successors from the
+//! `k`-th on, `V_0 = 0`: `p·V = Σ_k (V_k − V_{k−1}) p(T_k)` and `min p(T) = max(Σ_T l, 1 − Σ_{Tᶜ} u)`. Since `V ≥ 0`, a bound
+//! on the mass of every `T_k` is a bound on the expectation.
 //! - The mass `Σ_T l` (or `Σ_T u`, for the maximum) has only positive terms: reading, products and sums
 //!   change it by a factor within `1 ± (2m+8)ε`, which the last factor `1 ± 2(2m+8)ε` covers.
 //! - The mass `1 − Σ_{Tᶜ} u` (or `1 − Σ_{Tᶜ} l`) matters only while slack is left, so only if
 //!   `Σ_{Tᶜ} u ≤ 1`. It differs from the poured one by the reading and the difference `u − l`
-//!   (`≤ 2ε` altogether), the sum `Σ l` (`≤ (m+1)ε`) and `m` subtractions from the remaining slack
-//!   (`≤ mε`): less than `η = (2m+8)ε`, by which the slack is lowered or raised beforehand.
+//!   (`≤ 2ε` altogether), the sum `Σ l` (`≤ (m+1)ε`), the sum of the room below `τ` and its difference from the slack
+//!   (`≤ (m+1)ε`): at most `η = (2m+8)ε`, by which the slack is lowered or raised beforehand.
+//! - The room below `τ` and up to it is summed up in the same order for every `τ`, so rounding keeps it monotone: a threshold
+//!   always exists, and where the sums say that slack is left it is, to within the same `η`.
 //! - Slack that finds no room goes to the highest value when the minimum is rounded up, and is dropped
 //!   when a bound from below is wanted.
 //! - Finally the result lies between the smallest and the largest value of the row (where `u > 0`).
 
 use super::query::Direction;
-use crate::model::{Row, RowId, Rows};
+use super::threshold::{Scratch, Threshold};
+use crate::model::{Row, RowBuffer, RowId, RowSet};
 use crate::numeric::rounding_factor;
 
 /// Which side of the exact value a result is on.
@@ -41,48 +49,59 @@ pub(super) enum Bound {
 /// Covers underflow: products and bounds below the normal range lose absolute, not relative, accuracy.
 const UNDERFLOW: f64 = 1e-300;
 
-/// Rows with the order in which each was last sorted, which is nearly right for the next iteration.
+/// Rows with the thresholds of their last evaluation, which are nearly right for the next one.
 #[derive(Clone, Debug)]
 pub(super) struct RowBlock {
     pub rows: Vec<RowId>,
-    /// The positions within each row, one row after the other, ascending in value.
-    order: Vec<u32>,
+    /// The position in each row of the successor whose value is the threshold.
+    critical: Vec<u32>,
     /// `1 − Σ l` of every row.
     slacks: Vec<f64>,
-    scratch: Vec<f64>,
+    scratch: Scratch,
+    buffer: RowBuffer,
 }
 
 impl RowBlock {
-    pub(super) fn new(all: &Rows, rows: Vec<RowId>) -> Self {
-        let order = rows.iter().flat_map(|&row| 0..all.row_len(row) as u32).collect();
-        let slacks = rows.iter().map(|&row| slack(all.row(row))).collect();
-        Self { rows, order, slacks, scratch: vec![] }
+    pub(super) fn new(all: &RowSet, rows: Vec<RowId>) -> Self {
+        let mut buffer = RowBuffer::default();
+        let slacks = rows.iter().map(|&row| slack(all.row(row, &mut buffer))).collect();
+        Self { critical: vec![0; rows.len()], rows, slacks, scratch: Scratch::default(), buffer }
     }
 
     /// The expectations of the rows of the block, in their order.
     pub(super) fn evaluate(
         &mut self,
-        all: &Rows,
+        all: &RowSet,
         values: &[f64],
         nature: Direction,
         side: Bound,
     ) -> Vec<f64> {
-        let Self { rows, order, slacks, scratch } = self;
-        let mut order = &mut order[..];
-        let expectations = rows.iter().zip(slacks).map(|(&id, slack)| {
-            let row = all.row(id);
-            let (own, rest) = std::mem::take(&mut order).split_at_mut(row.len());
-            order = rest;
-            expectation((row, *slack), values, (own, scratch), nature, side)
+        let Self { rows, critical, slacks, scratch, buffer } = self;
+        let expectations = rows.iter().zip(slacks).zip(critical).map(|((&id, slack), critical)| {
+            expectation((all.row(id, buffer), *slack), values, (critical, scratch), nature, side)
         });
         expectations.collect()
     }
 }
 
-/// The least expectation of `values ≥ 0` that each row allows, rounded down.
-pub fn worst_expectations(rows: &Rows, values: &[f64]) -> Vec<f64> {
-    let all = RowId::first(rows.len()).collect();
-    RowBlock::new(rows, all).evaluate(rows, values, Direction::Min, Bound::Lower)
+/// The least expectations that rows allow, one row after the other: quickest if their values are alike.
+#[derive(Clone, Debug, Default)]
+pub struct WorstExpectation {
+    /// That of the row before.
+    threshold: f64,
+    scratch: Scratch,
+}
+
+impl WorstExpectation {
+    /// The least expectation of `values ≥ 0` that a row allows, rounded down.
+    pub fn of(&mut self, row: Row<'_>, values: &[f64]) -> f64 {
+        let near = row.successors.iter().position(|s| values[s.index()] == self.threshold);
+        let mut critical = near.unwrap_or(0) as u32;
+        let parts = (&mut critical, &mut self.scratch);
+        let worst = expectation((row, slack(row)), values, parts, Direction::Min, Bound::Lower);
+        self.threshold = row.successors.get(critical as usize).map_or(0.0, |s| values[s.index()]);
+        worst
+    }
 }
 
 /// `1 − Σ l`, to nearest.
@@ -94,43 +113,51 @@ fn slack(row: Row<'_>) -> f64 {
 fn expectation(
     (row, slack): (Row<'_>, f64),
     values: &[f64],
-    (order, scratch): (&mut [u32], &mut Vec<f64>),
+    (critical, scratch): (&mut u32, &mut Scratch),
     nature: Direction,
     side: Bound,
 ) -> f64 {
-    if order.len() < 2 {
+    if row.len() < 2 {
         // A single successor has all the mass.
         return values[row.successors[0].index()];
     }
-    scratch.clear();
-    scratch.extend(row.successors.iter().map(|&s| values[s.index()]));
-    sort(order, scratch);
-    // Successors that cannot have any mass bound nothing.
-    let possible = |i: &&u32| row.upper[**i as usize] > 0.0;
-    let value = |i: Option<&u32>| i.map_or(0.0, |&i| scratch[i as usize]);
-    let (lowest, highest) = (value(order.iter().find(possible)), value(order.iter().rfind(possible)));
-    if lowest == highest {
-        return lowest;
+    scratch.values.clear();
+    scratch.values.extend(row.successors.iter().map(|&s| values[s.index()]));
+    let (lowest, highest) = extremes(row, &scratch.values);
+    if lowest >= highest {
+        return lowest.min(highest).max(0.0);
     }
-    let base = dot(row.lower, scratch);
+    let base = dot(row.lower, &scratch.values);
     // `rounding_factor` doubles: this is η = (2m + 8)ε.
     let margin = rounding_factor(row.len() + 4);
     let slack = match side {
         Bound::Lower => (slack - margin).max(0.0),
         Bound::Upper => (slack + margin).max(0.0),
     };
-    let poured = match nature {
-        Direction::Min => {
-            let (poured, left) = pour(row, scratch, slack, order.iter());
-            if side == Bound::Upper { poured + left * highest } else { poured }
-        }
-        Direction::Max => pour(row, scratch, slack, order.iter().rev()).0,
+    let threshold = match nature {
+        Direction::Min => Threshold::find(row, scratch, slack, critical, |a, b| a < b),
+        Direction::Max => Threshold::find(row, scratch, slack, critical, |a, b| a > b),
+    };
+    let poured = match (nature, side) {
+        (Direction::Min, Bound::Upper) => threshold.poured + threshold.left * highest,
+        _ => threshold.poured,
     };
     let factor = rounding_factor(2 * row.len() + 8);
     match side {
         Bound::Lower => ((base + poured) * (1.0 - factor) - UNDERFLOW).max(lowest).min(highest),
         Bound::Upper => ((base + poured) * (1.0 + factor) + UNDERFLOW).min(highest).max(lowest),
     }
+}
+
+/// The least and the greatest value of a successor that can have any mass; the others bound nothing.
+fn extremes(row: Row<'_>, values: &[f64]) -> (f64, f64) {
+    let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
+    for (&value, &upper) in values.iter().zip(row.upper) {
+        let (low, high) = if upper > 0.0 { (value, value) } else { (f64::INFINITY, f64::NEG_INFINITY) };
+        lowest = if low < lowest { low } else { lowest };
+        highest = if high > highest { high } else { highest };
+    }
+    (lowest, highest)
 }
 
 /// `Σ a b` in four interleaved sums, which the error bound for one sum covers as well.
@@ -144,26 +171,6 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
         }
     }
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
-}
-
-/// Pours the slack in the given order; returns its share of the expectation and what found no room.
-fn pour<'a>(
-    row: Row<'_>,
-    values: &[f64],
-    mut slack: f64,
-    order: impl Iterator<Item = &'a u32>,
-) -> (f64, f64) {
-    let mut sum = 0.0;
-    for &i in order {
-        let i = i as usize;
-        let room = row.upper[i] - row.lower[i];
-        if room >= slack {
-            return (sum + slack * values[i], 0.0);
-        }
-        sum += room * values[i];
-        slack -= room;
-    }
-    (sum, slack)
 }
 
 /// The distribution that attains the optimum, up to rounding: `p − l` by position.
@@ -182,24 +189,48 @@ pub(super) fn poured_mass(row: Row<'_>, values: &[f64], nature: Direction) -> Ve
     poured
 }
 
-/// Sorts positions by value; linear when they are nearly sorted.
-fn sort(order: &mut [u32], values: &[f64]) {
-    // Insertion sort moves an element at a time; beyond this many moves a general sort is cheaper.
-    let mut budget = 4 * order.len() + 32;
-    for i in 1..order.len() {
-        let element = order[i];
-        let key = values[element as usize];
-        let mut j = i;
-        while j > 0 && values[order[j - 1] as usize] > key {
-            order[j] = order[j - 1];
-            j -= 1;
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Rows, StateId};
+    use proptest::prelude::*;
+
+    /// Pours into one successor after the other, sorted by value.
+    fn sorted(row: Row<'_>, values: &[f64], nature: Direction) -> f64 {
+        let poured = poured_mass(row, values, nature);
+        let mass = poured.iter().zip(row.lower).map(|(p, l)| p + l);
+        mass.zip(row.successors).map(|(p, &s)| p * values[s.index()]).sum()
+    }
+
+    proptest! {
+        /// From one evaluation to the next thresholds may move anywhere; values are often equal.
+        #[test]
+        fn thresholds_say_what_sorting_says(
+            entries in prop::collection::vec((0.0f64..1.0, 0.0f64..1.0), 2..40),
+            rounds in prop::collection::vec(prop::collection::vec(0u32..12, 40), 1..6),
+        ) {
+            let total: f64 = entries.iter().map(|(low, _)| low + 0.1).sum();
+            let mut rows = Rows::new();
+            let room: f64 = 1.0 - entries.iter().map(|(low, _)| low / total).sum::<f64>();
+            for (i, (low, more)) in entries.iter().enumerate() {
+                // Some of the rows have just enough room.
+                let more = if i == 0 { room } else { more * room };
+                rows.push_entry(StateId::from_index(i), low / total, (low / total + more).min(1.0));
+            }
+            let id = rows.finish_row();
+            let rows = RowSet::from(rows);
+            let mut block = RowBlock::new(&rows, vec![id]);
+            let mut buffer = RowBuffer::default();
+            for values in rounds {
+                let values: Vec<f64> = values.into_iter().map(|v| f64::from(v) / 11.0).collect();
+                for nature in [Direction::Min, Direction::Max] {
+                    let expected = sorted(rows.row(id, &mut buffer), &values, nature);
+                    let [low, high] = [Bound::Lower, Bound::Upper]
+                        .map(|side| block.evaluate(&rows, &values, nature, side)[0]);
+                    prop_assert!(low <= expected && expected <= high, "{low} {expected} {high}");
+                    prop_assert!(high - low < 1e-12, "{low} {high}");
+                }
+            }
         }
-        order[j] = element;
-        if i - j > budget {
-            order
-                .sort_unstable_by(|&a, &b| values[a as usize].total_cmp(&values[b as usize]).then(a.cmp(&b)));
-            return;
-        }
-        budget -= i - j;
     }
 }

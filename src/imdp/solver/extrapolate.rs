@@ -14,7 +14,7 @@ use super::component::Component;
 use super::expectation::{Bound, poured_mass};
 use super::graph::can_stay;
 use super::query::Direction;
-use crate::model::{RowId, StateId};
+use crate::model::{RowBuffer, RowId, StateId};
 use std::collections::HashMap;
 
 impl Component<'_, '_> {
@@ -83,6 +83,7 @@ impl Component<'_, '_> {
         let mut inside = vec![false; states.len()];
         let position = |s: StateId| states.binary_search(&s).ok();
         left.iter().filter_map(|(s, _)| position(*s)).for_each(|i| inside[i] = true);
+        let mut buffer = RowBuffer::default();
         // Rounds in alternating directions; giving up early only means not to jump.
         for _ in 0..64 {
             let before = left.len();
@@ -90,10 +91,11 @@ impl Component<'_, '_> {
             left.retain(|(s, rows)| {
                 let contained = |s: StateId| position(s).is_some_and(|i| inside[i]);
                 let stays = rows.iter().any(|id| match shared.players.nature {
-                    Direction::Min => can_stay(all.row(*id), &contained),
+                    Direction::Min => can_stay(all.row(*id, &mut buffer), &contained),
                     Direction::Max => {
                         let support = supports.get(id).map_or(&[][..], |support| support);
-                        all.row(*id).successors.iter().zip(support).all(|(s, sure)| !sure || contained(*s))
+                        let successors = all.row(*id, &mut buffer).successors;
+                        successors.iter().zip(support).all(|(s, sure)| !sure || contained(*s))
                     }
                 });
                 if !stays && let Some(i) = position(*s) {
@@ -113,7 +115,8 @@ impl Component<'_, '_> {
 
     /// The successors that surely have positive probability when nature maximises at the current bounds.
     fn certain_support(&self, id: RowId) -> Vec<bool> {
-        let row = self.shared.model.rows().row(id);
+        let buffer = &mut RowBuffer::default();
+        let row = self.shared.model.rows().row(id, buffer);
         let doubtful = crate::numeric::rounding_factor(2 * row.len() + 8);
         let poured = poured_mass(row, &self.shared.lower, Direction::Max);
         poured.iter().zip(row.lower).map(|(p, l)| *l > 0.0 || *p > doubtful).collect()

@@ -4,7 +4,7 @@ use super::component::{Component, Shared};
 use super::expectation::poured_mass;
 use super::graph::{Candidates, can_stay, end_components, stays};
 use super::query::Direction;
-use crate::model::{RowId, StateId};
+use crate::model::{RowBuffer, RowId, StateId};
 use std::collections::HashMap;
 
 /// Where upper bounds must be level, and the rows that cannot raise them there.
@@ -58,7 +58,8 @@ pub(super) fn levels(component: &Component<'_, '_>) -> LevelSets {
     // Most rows can leave for a finished state: they are in no end component.
     let inside = |s: StateId| component.sweep.states.binary_search(&s).is_ok();
     let may_stay = |position: usize| {
-        let row = shared.model.rows().row(rows[position]);
+        let buffer = &mut RowBuffer::default();
+        let row = shared.model.rows().row(rows[position], buffer);
         match &supports {
             Some(supports) => row.successors.iter().zip(&supports[position]).all(|(s, p)| !p || inside(*s)),
             None => can_stay(row, &inside),
@@ -97,7 +98,8 @@ fn capped_rows(component: &Component<'_, '_>, classes: &[Vec<u32>], rows: &[RowI
     let label: HashMap<StateId, usize> =
         members.map(|(i, index)| (component.sweep.states[i as usize], index)).collect();
     let class_of = |&id: &RowId| {
-        let row = shared.model.rows().row(id);
+        let buffer = &mut RowBuffer::default();
+        let row = shared.model.rows().row(id, buffer);
         let mut tried = None;
         let mut candidates = row.successors.iter().filter_map(|s| label.get(s).copied());
         let class = candidates.find(|&class| {
@@ -112,7 +114,8 @@ fn capped_rows(component: &Component<'_, '_>, classes: &[Vec<u32>], rows: &[RowI
 
 /// Where a minimising nature puts mass at the current lower bounds.
 fn minimal_support(shared: &Shared<'_>, id: RowId) -> Vec<bool> {
-    let row = shared.model.rows().row(id);
+    let buffer = &mut RowBuffer::default();
+    let row = shared.model.rows().row(id, buffer);
     // Less than this is what rounding leaves over.
     let negligible = crate::numeric::rounding_factor(row.len() + 4);
     let poured = poured_mass(row, &shared.lower, Direction::Min);

@@ -42,6 +42,7 @@ mod reward;
 mod slow;
 mod solution;
 mod sweep;
+mod threshold;
 mod unbounded;
 mod working_memory;
 
@@ -49,7 +50,7 @@ pub use answer::{Answer, AnswerError};
 pub use delay::solve_delayed;
 pub use exact::Inexact;
 pub(crate) use exact::exact_values;
-pub use expectation::worst_expectations;
+pub use expectation::WorstExpectation;
 pub(crate) use graph::strong_components;
 pub(crate) use omega::{Acceptance, accepting_states};
 pub use options::{Control, SolverOptions, Status};

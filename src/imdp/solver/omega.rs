@@ -14,7 +14,7 @@
 
 use super::graph::{certain, possible_within, stays, strong_components};
 use super::query::Direction;
-use crate::model::{IntervalMdp, RowId, StateId, StateSet};
+use crate::model::{IntervalMdp, RowBuffer, RowId, StateId, StateSet};
 
 /// A condition on a run: what it must meet finitely and what infinitely often.
 #[derive(Clone, Debug)]
@@ -66,8 +66,9 @@ fn split(model: &IntervalMdp, set: &StateSet, nature: Direction) -> Vec<StateSet
     let inside = |s: StateId| set.contains(s.index());
     let mut row_stays: Vec<Option<bool>> = vec![None; model.rows().len()];
     let mut stays_in = |row: RowId| {
-        *row_stays[row.index()]
-            .get_or_insert_with(|| stays(model.rows().row(row), nature, |s| set.contains(s.index())))
+        *row_stays[row.index()].get_or_insert_with(|| {
+            stays(model.rows().row(row, &mut RowBuffer::default()), nature, |s| set.contains(s.index()))
+        })
     };
     let mut has_choice = StateSet::with_capacity(model.num_states());
     for state in set.ones() {
@@ -83,7 +84,8 @@ fn split(model: &IntervalMdp, set: &StateSet, nature: Direction) -> Vec<StateSet
             if !row_stays[row.index()].unwrap_or(false) {
                 continue;
             }
-            let row = model.rows().row(row);
+            let buffer = &mut RowBuffer::default();
+            let row = model.rows().row(row, buffer);
             for (position, &successor) in row.successors.iter().enumerate() {
                 if !inside(successor) || !has_choice.contains(successor.index()) {
                     continue;

@@ -18,7 +18,7 @@ use super::sweep::Sweep;
 use super::{Policy, Solution, SolveError, SolverOptions, Status, ValueBounds};
 use crate::certificate::{Evidence, Inductive};
 use crate::exact::Replaced;
-use crate::model::{IntervalMdp, RowId, StateId, StateSet, require_memory};
+use crate::model::{IntervalMdp, RowBuffer, RowId, StateId, StateSet, require_memory};
 
 /// Sweeps of a cyclic part before it is given to linear equations.
 const PATIENCE: u64 = 256;
@@ -124,7 +124,8 @@ fn parts(model: &IntervalMdp, open: &impl Fn(usize) -> bool) -> Vec<Part> {
                 out.extend([2 * inner, 2 * inner + 1].map(|child| (states + child) as u32));
             }
             Some(leaf) => {
-                let row = model.rows().row(RowId::from_index(leaf - rows));
+                let buffer = &mut RowBuffer::default();
+                let row = model.rows().row(RowId::from_index(leaf - rows), buffer);
                 let possible = row.successors.iter().zip(row.upper).filter(|(_, u)| **u > 0.0);
                 out.extend(possible.filter(|(s, _)| open(s.index())).map(|(s, _)| s.0));
             }
@@ -160,7 +161,8 @@ fn longest_dependency(parts: &[Part], model: &IntervalMdp, rows: usize) -> usize
     let mut of_state = vec![0u32; model.num_states()];
     let mut longest = 0;
     let behind = |row: RowId, of_state: &[u32]| {
-        model.rows().row(row).successors.iter().map(|&s| of_state[s.index()]).max().unwrap_or(0)
+        let buffer = &mut RowBuffer::default();
+        model.rows().row(row, buffer).successors.iter().map(|&s| of_state[s.index()]).max().unwrap_or(0)
     };
     let across = |state: StateId, of_row: &[u32]| {
         model.choices().rows(state).map(|row| of_row[row.index()]).max().unwrap_or(0)

@@ -6,7 +6,7 @@ use super::extremum::Extremum;
 use super::side::Side;
 use super::task::Task;
 use crate::exact::ExactRow;
-use crate::model::{IntervalMdp, MemoryError, RowId, StateId, StateSet, require_memory};
+use crate::model::{IntervalMdp, MemoryError, RowBuffer, RowId, StateId, StateSet, require_memory};
 use rayon::prelude::*;
 
 /// The choice of a state that the policy says nothing about.
@@ -30,10 +30,12 @@ impl<'a> ExactRows<'a> {
         let used: Vec<RowId> = model.choices().used_rows(all.len(), moving());
         let entries: u64 = used.iter().map(|&row| all.row_len(row) as u64).sum();
         // Two numerators of 16 bytes per entry; much smaller bounds than 1e-13 need longer ones.
-        let tiny = all.iter().any(|row| row.lower.iter().chain(row.upper).any(|&x| 0.0 < x && x < 1e-13));
+        let tiny = all.any(|row| row.lower.iter().chain(row.upper).any(|&x| 0.0 < x && x < 1e-13));
         require_memory("the exact model", entries * if tiny { 400 } else { 32 } + 256 * all.len() as u64)?;
         let mut rows = vec![None; all.len()];
-        let exact: Vec<_> = used.par_iter().map(|&row| ExactRow::new(all.row(row))).collect();
+        let exact: Vec<_> = (used.par_iter())
+            .map_init(RowBuffer::default, |buffer, &row| ExactRow::new(all.row(row, buffer)))
+            .collect();
         used.iter().zip(exact).for_each(|(&row, exact)| rows[row.index()] = exact);
         let longest =
             moving().flat_map(|s| model.choices().ranges(s)).map(|range| range.len()).max().unwrap_or(1);
@@ -96,10 +98,11 @@ impl<'a> SideProof<'a> {
         self.check_fractions(&next, choices, step)?;
         let Self { rows, fresh, values, .. } = self;
         let changed = |s: &StateId| !values.agrees(&next, s.index());
-        let stale: Vec<usize> = fresh
-            .ones()
-            .filter(|&row| rows.model.rows().row(RowId::from_index(row)).successors.iter().any(changed))
-            .collect();
+        let mut buffer = RowBuffer::default();
+        let is_stale = |row: &usize| {
+            rows.model.rows().row(RowId::from_index(*row), &mut buffer).successors.iter().any(changed)
+        };
+        let stale: Vec<usize> = fresh.ones().filter(is_stale).collect();
         stale.into_iter().for_each(|row| fresh.set(row, false));
         self.values = next;
         Ok(())
@@ -174,7 +177,8 @@ impl<'a> SideProof<'a> {
                 false => of_state.rows(StateId::from_index(s)).collect(),
             };
             for row in rows {
-                let successors = self.rows.model.rows().row(row).successors;
+                let buffer = &mut RowBuffer::default();
+                let successors = self.rows.model.rows().row(row, buffer).successors;
                 let expectation = self.rows.get(row)?.expectation(successors, &exact, self.task.nature);
                 let follows = match self.side {
                     Side::Lower => *bound <= expectation,
@@ -195,12 +199,13 @@ impl<'a> SideProof<'a> {
             return Ok(());
         }
         let exact = self.values.to_exact();
-        let expectation = |&row: &RowId| {
-            let successors = self.rows.model.rows().row(row).successors;
+        let expectation = |buffer: &mut RowBuffer, &row: &RowId| {
+            let successors = self.rows.model.rows().row(row, buffer).successors;
             let value = self.rows.get(row)?.expectation(successors, &exact, self.task.nature);
             Ok(self.side.round(&value))
         };
-        let results: Vec<f64> = stale.par_iter().map(expectation).collect::<Result<_, Rejection>>()?;
+        let results = stale.par_iter().map_init(RowBuffer::default, expectation);
+        let results: Vec<f64> = results.collect::<Result<_, Rejection>>()?;
         for (&row, result) in stale.iter().zip(results) {
             self.expectations[row.index()] = result;
             self.fresh.insert(row.index());

@@ -5,7 +5,7 @@ use super::bounds::Bounds;
 use super::one_step::ExactRows;
 use super::task::Task;
 use crate::exact::Nature;
-use crate::model::{RowId, StateId, StateSet};
+use crate::model::{RowBuffer, RowId, StateId, StateSet};
 use rayon::prelude::*;
 
 /// Checks that ranks decrease with positive probability; states whose lower bound is 0 or final have rank 0.
@@ -33,8 +33,8 @@ pub(super) fn check_ranks(
     } else {
         of_choices.used_rows(rows.model.rows().len(), states())
     };
-    let needed_by = |&row: &RowId| {
-        let successors = rows.model.rows().row(row).successors;
+    let needed_by = |buffer: &mut RowBuffer, &row: &RowId| {
+        let successors = rows.model.rows().row(row, buffer).successors;
         let exact = rows.get(row)?;
         Ok(match task.nature {
             Nature::Min => exact.certain_rank(successors, rank),
@@ -45,7 +45,10 @@ pub(super) fn check_ranks(
             }
         })
     };
-    let found: Vec<u64> = used.par_iter().map(needed_by).collect::<Result<_, Rejection>>()?;
+    let found: Vec<u64> = {
+        let found = used.par_iter().map_init(RowBuffer::default, needed_by);
+        found.collect::<Result<_, Rejection>>()?
+    };
     let mut needed = vec![u64::MAX; rows.model.rows().len()];
     used.iter().zip(found).for_each(|(&row, least)| needed[row.index()] = least);
     for state in states() {

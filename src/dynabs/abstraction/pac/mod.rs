@@ -75,52 +75,58 @@
 //! in floating point count for the upper bounds of every cell they may be in, for the lower bounds of none.
 
 mod bounds;
-mod ground;
+mod events;
 mod levels;
+mod preference;
 mod prepared;
 mod roomy;
 
 use super::AbstractionError;
-use super::action_counts::{ActionCounts, TargetPlacements, for_each_cell, is_inside};
+use super::action_counts::{ActionCounts, TargetPlacements};
 use super::cell_box::CellBox;
-use super::cell_counts::RegionCounts;
+use super::cell_counts::{CellCounts, RegionCounts};
 use super::enabling::Enabling;
 use super::footprint::need_of_rows;
 use super::outcomes::{Outcome, Outcomes};
 use super::rooms::Rooms;
 use super::states::{FAILED, REACHED, StateSpace};
+use super::stencil::{BoxCount, Ground, Hits, Special, Stencil, StencilRows};
 use super::targets::Targets;
 use super::windows::WINDOWS;
 use crate::guarantee::SampleEvidence;
 use crate::problem::Problem;
 use bounds::{BoundTable, DIGITS, Interval};
-use ground::{Ground, cell_events, intervals};
-use imdp::model::Rows;
+use events::{cell_events, intervals};
+use imdp::model::RowSet;
 use imdp::numeric::{round_decimal_down, round_decimal_up};
 use imdp::progress::Progress;
-use imdp::solver::worst_expectations;
 use levels::{EventLevels, LowerBounds};
 pub(super) use levels::{offset_weight, total_offset_weight};
+use preference::Chooser;
+pub(super) use preference::Preference;
 pub(super) use prepared::Prepared;
 use rayon::prelude::*;
 use roomy::RoomBounds;
+use std::sync::Arc;
 
 /// The rows of all actions, with any of their windows.
 pub(super) struct PacRows<'a> {
     problem: &'a Problem,
     targets: &'a Targets,
-    states: &'a StateSpace,
-    outcomes: &'a Outcomes,
     landings: ActionCounts<'a>,
-    /// Per action.
+    ground: Arc<Ground>,
+    lost_cells: BoxCount,
+    goal_cells: BoxCount,
+    /// Per action; nothing is counted where no window meets anything but open cells.
     regions: Vec<RegionCounts>,
     /// By squared distance from the target.
     cells: BoundTable<u64>,
-    /// The intervals of the shared landing's table.
-    shared: Option<Vec<Interval>>,
     /// By distance from the goal.
     goal: BoundTable<u32>,
     lost: BoundTable<()>,
+    /// Those of all actions, where coordinates count from the target: one per window, the largest first, for noise with no
+    /// room to stay in and then for each room.
+    stencils: Option<Arc<[Stencil]>>,
     /// By number.
     in_rooms: Vec<RoomBounds>,
     rooms: &'a Rooms,
@@ -134,25 +140,26 @@ impl<'a> PacRows<'a> {
         prepared: Prepared,
         enabling: &'a Enabling,
         placements: TargetPlacements<'a>,
-        states: &'a StateSpace,
-        outcomes: &'a Outcomes,
+        states: &StateSpace,
+        outcomes: &Outcomes,
     ) -> Result<Self, AbstractionError> {
         let (grid, samples) = (problem.grid(), &problem.noise().samples);
         let Enabling { targets, rooms, .. } = enabling;
         let levels = &prepared.levels;
         let inside_only = levels.lower_bounds() == LowerBounds::InsideWindows;
         let landings = ActionCounts::in_windows(samples, placements, prepared.windows.clone(), inside_only);
-        let entries = targets.len() as u64 * landings.row_length(grid) as u64;
-        need_of_rows(problem, entries).check()?;
-
-        let counts = |origin: &mut Vec<i32>, target| {
-            let (landing, _) = landings.of(targets, target, grid, origin);
-            landing.region_counts(origin, grid, outcomes)
-        };
-        let regions: Vec<RegionCounts> = (0..targets.num_originals())
-            .into_par_iter()
-            .map_init(|| vec![0; grid.dimension()], counts)
-            .collect();
+        if landings.shared().is_none() {
+            let entries = targets.len() as u64 * landings.row_length(grid) as u64;
+            need_of_rows(problem, entries).check()?;
+        }
+        let ground = Ground::new(grid, landings.shared().map(|_| targets), |cell| match outcomes.of(cell) {
+            Outcome::Lost => FAILED,
+            Outcome::Reached => REACHED,
+            Outcome::Open => states.of_cell(cell),
+        });
+        let lost_cells = BoxCount::new(&ground, |state| state == FAILED);
+        let goal_cells = BoxCount::new(&ground, |state| state == REACHED);
+        let regions = regions(&landings, targets, problem, &ground, [&lost_cells, &goal_cells]);
         let size = prepared.sample_size(samples.len() as u64);
         let cell_events = cell_events(&landings, targets, problem);
         let cells = BoundTable::new(cell_events, &size, |square| levels.cell(square));
@@ -167,48 +174,63 @@ impl<'a> PacRows<'a> {
         let in_room = |&room| {
             RoomBounds::new(room, &prepared, &landings, between, shared.as_deref().unwrap_or_default())
         };
-        let in_rooms = rooms.distinct.par_iter().filter_map(in_room).collect();
+        let in_rooms: Vec<RoomBounds> = rooms.distinct.par_iter().filter_map(in_room).collect();
+        let stencils = landings.shared().zip(shared.as_deref()).map(|(landing, shared)| {
+            let of_rooms = in_rooms.iter().map(|room| (&room.intervals[..], room.leaving));
+            let all = std::iter::once((shared, 0.0)).chain(of_rooms);
+            let windows = landings.shared_windows();
+            all.flat_map(|bounds| stencils(landing, windows, &ground, bounds, &prepared.unseen)).collect()
+        });
         Ok(Self {
             in_rooms,
             rooms,
             problem,
             targets,
-            states,
-            outcomes,
             landings,
+            ground: Arc::new(ground),
+            lost_cells,
+            goal_cells,
             regions,
             cells,
-            shared,
             goal,
             lost,
+            stencils,
             prepared,
         })
     }
 
-    /// One row per target, each with the window with which the least mass may fail.
-    pub(super) fn rows(&self, progress: &dyn Progress) -> Rows {
-        self.collect("rows", progress, |target, rows| {
-            let ground = Ground::new(self, target);
-            let failed: Vec<f64> =
-                (0..self.prepared.unseen.len()).map(|w| self.failed(&ground, target, w)).collect();
-            let best = (1..failed.len()).fold(0, |best, w| if failed[w] < failed[best] { w } else { best });
-            self.push_row(&ground, target, best, rows);
-        })
-    }
-
-    /// One row per target, each with the window with which the worst expectation of `values` is largest.
+    /// One row per target, each with the window that is preferred.
     ///
-    /// A window with less mass outside may list more cells, each of which may get some mass: which of the two
-    /// costs more depends on what these cells are worth. Whatever is chosen, the bounds hold.
-    pub(super) fn better_rows(&self, values: &[f64], progress: &dyn Progress) -> Rows {
-        self.collect("choice of windows", progress, |target, rows| {
-            let ground = Ground::new(self, target);
-            let mut candidates = Rows::new();
-            (0..self.prepared.unseen.len()).for_each(|w| self.push_row(&ground, target, w, &mut candidates));
-            let worth = worst_expectations(&candidates, values);
-            let best = (1..worth.len()).fold(0, |best, w| if worth[w] > worth[best] { w } else { best });
-            self.push_row(&ground, target, best, rows);
-        })
+    /// Whatever is chosen, the bounds hold.
+    pub(super) fn rows(
+        &self,
+        preference: Preference<'_>,
+        phase: &'static str,
+        progress: &dyn Progress,
+    ) -> RowSet {
+        progress.start(phase, self.targets.len() as u64);
+        let rows = match &self.stencils {
+            None => super::row_tasks::build_rows(self.targets.len(), progress, |target, rows| {
+                let stencils = self.stencils_of(target);
+                let mut chooser = Chooser::new(self, preference);
+                let chosen = chooser.choose(&stencils, target);
+                rows.push_row(chooser.row(&stencils, &chosen));
+            })
+            .into(),
+            Some(stencils) => StencilRows::new(
+                self.ground.clone(),
+                stencils.clone(),
+                self.targets.len(),
+                || Chooser::new(self, preference),
+                |chooser, target| {
+                    progress.advance(1);
+                    chooser.choose(stencils, target)
+                },
+            )
+            .into(),
+        };
+        progress.finish();
+        rows
     }
 
     /// What the rows rest on.
@@ -224,28 +246,42 @@ impl<'a> PacRows<'a> {
         }
     }
 
-    fn collect(
-        &self,
-        phase: &'static str,
-        progress: &dyn Progress,
-        push: impl Fn(usize, &mut Rows) + Sync,
-    ) -> Rows {
-        progress.start(phase, self.targets.len() as u64);
-        let rows = super::row_tasks::build_rows(self.targets.len(), progress, push);
-        progress.finish();
-        rows
-    }
-
     /// The bounds of the room that an action needs, if it needs one.
     fn room(&self, target: usize) -> Option<&RoomBounds> {
-        let copy = target.checked_sub(self.targets.num_originals())?;
-        self.in_rooms.get(self.rooms.of_copy[copy])
+        self.in_rooms.get(self.number_of_room(target)?)
     }
 
-    /// How much may fail if the row is made with a window.
-    fn failed(&self, ground: &Ground<'_>, target: usize, window: usize) -> f64 {
+    fn number_of_room(&self, target: usize) -> Option<usize> {
+        let copy = target.checked_sub(self.targets.num_originals())?;
+        Some(self.rooms.of_copy[copy])
+    }
+
+    /// The number of windows.
+    fn windows(&self) -> usize {
+        self.prepared.unseen.len()
+    }
+
+    /// Where the stencils of an action are among those of all.
+    fn first_stencil(&self, target: usize) -> usize {
+        let room = self.number_of_room(target).filter(|&room| room < self.in_rooms.len());
+        room.map_or(0, |room| (1 + room) * self.windows())
+    }
+
+    /// The stencils of an action whose coordinates are those of the grid.
+    fn stencils_of(&self, target: usize) -> Vec<Stencil> {
+        let grid = self.problem.grid();
+        let (landing, windows) = self.landings.of(self.targets, target, grid, &mut vec![0; grid.dimension()]);
+        let from = self.landings.target_cell(self.targets, target);
+        let intervals = intervals(&landing, &from, &self.cells);
+        stencils(&landing, &windows, &self.ground, (&intervals, 0.0), &self.prepared.unseen)
+    }
+
+    /// How much may fail if the row at `origin` is made with a window.
+    fn failed(&self, stencil: &Stencil, target: usize, origin: &[i32], window: usize) -> f64 {
         let unseen = self.prepared.unseen[window];
-        let most = if self.is_clean(&ground.windows[window], &ground.origin) {
+        let hull = stencil.runs().hull();
+        let is_clean = self.ground.contains(hull, origin) && self.lost_cells.of(hull, origin) == 0;
+        let most = if is_clean {
             unseen
         } else {
             let original = self.targets.original(target);
@@ -255,43 +291,83 @@ impl<'a> PacRows<'a> {
         round_decimal_up(most, DIGITS).min(1.0)
     }
 
-    fn push_row(&self, ground: &Ground<'_>, target: usize, window: usize, rows: &mut Rows) {
-        let grid = self.problem.grid();
-        let Ground { landing, windows, origin, intervals } = ground;
-        let (table, cells) = (landing.table(), &windows[window]);
-        let (mut meets_goal, mut goal_lower) = (false, 0.0);
-        for_each_cell(table, cells, origin, grid, |cell, i| {
-            if self.outcomes.of(cell) == Outcome::Reached {
-                meets_goal = true;
-                goal_lower = f64::next_down(goal_lower + intervals[i].lower[window]).max(0.0);
-            }
-        });
-        rows.push_entry(FAILED, 0.0, self.failed(ground, target, window));
-        if meets_goal {
+    /// The intervals of the special states of the row at `origin`.
+    fn special(&self, stencil: &Stencil, target: usize, origin: &[i32], window: usize) -> Special {
+        let meets_goal = self.goal_cells.of(stencil.runs().hull(), origin) > 0;
+        let reached = meets_goal.then(|| {
+            let mut of_cells = 0.0;
+            stencil.runs().for_each(&self.ground, origin, |first, position, length| {
+                for (i, &state) in self.ground.states[first..first + length].iter().enumerate() {
+                    if state == REACHED {
+                        of_cells = f64::next_down(of_cells + stencil.lower(position + i)).max(0.0);
+                    }
+                }
+            });
             let original = self.targets.original(target);
             let event = self.goal.get(self.regions[original].goal, self.prepared.goal_distances[original]);
-            let of_cells = round_decimal_down(goal_lower, DIGITS);
+            let of_cells = round_decimal_down(of_cells, DIGITS);
             // The goal's own event is about noise with or without room.
             let lower = if original == target { event.lower[window].max(of_cells) } else { of_cells };
-            rows.push_entry(REACHED, lower, event.upper);
-        }
-        for_each_cell(table, cells, origin, grid, |cell, i| {
-            if self.outcomes.of(cell) == Outcome::Open {
-                rows.push_entry(self.states.of_cell(cell), intervals[i].lower[window], intervals[i].upper);
-            }
+            (lower, event.upper)
         });
-        rows.finish_row();
+        Special { first: (0.0, self.failed(stencil, target, origin, window)), reached }
     }
 
-    /// Whether nothing in the window at `origin` is lost.
-    fn is_clean(&self, window: &CellBox, origin: &[i32]) -> bool {
-        let grid = self.problem.grid();
-        let mut clean = is_inside(window, origin, grid);
-        if clean {
-            for_each_cell(window, window, origin, grid, |cell, _| {
-                clean &= self.outcomes.of(cell) != Outcome::Lost;
-            });
-        }
-        clean
+    /// How many entries the row at `origin` has.
+    fn length(&self, stencil: &Stencil, origin: &[i32], special: Special) -> u32 {
+        let hull = stencil.runs().hull();
+        let merged = self.lost_cells.of(hull, origin) + self.goal_cells.of(hull, origin);
+        1 + u32::from(special.reached.is_some()) + self.ground.volume(hull, origin) - merged
     }
+}
+
+/// One stencil per window, in coordinates of the landing, with these intervals and so much noise that leaves a room.
+fn stencils(
+    landing: &CellCounts,
+    windows: &[CellBox],
+    ground: &Ground,
+    (intervals, leaving): (&[Interval], f64),
+    unseen: &[f64],
+) -> Vec<Stencil> {
+    let stencil = |(window, hull): (usize, &CellBox)| {
+        let mut places = Vec::with_capacity(hull.volume());
+        hull.for_each(|cell| places.push(landing.table().position(cell)));
+        let most = if leaving > 0.0 { (unseen[window] + leaving).next_up() } else { unseen[window] };
+        let usual = (0.0, round_decimal_up(most, DIGITS).min(1.0));
+        Stencil::new(hull, ground, usual, |position| {
+            let interval = &intervals[places[position]];
+            Some((interval.lower[window], interval.upper))
+        })
+    };
+    windows.iter().enumerate().map(stencil).collect()
+}
+
+/// How many samples land in the regions of the task, per action.
+fn regions(
+    landings: &ActionCounts<'_>,
+    targets: &Targets,
+    problem: &Problem,
+    ground: &Ground,
+    merged: [&BoxCount; 2],
+) -> Vec<RegionCounts> {
+    let grid = problem.grid();
+    let shared = landings.shared().zip(landings.shared_windows().first());
+    let shared = shared.map(|(landing, window)| (Hits::new(landing, ground), window));
+    let counts = |origin: &mut Vec<i32>, target| {
+        ground.origin(target, origin);
+        match &shared {
+            Some((_, window))
+                if ground.contains(window, origin)
+                    && merged.iter().all(|cells| cells.of(window, origin) == 0) =>
+            {
+                RegionCounts::default()
+            }
+            Some((hits, _)) => hits.in_regions(ground, origin),
+            None => {
+                let (landing, _) = landings.of(targets, target, grid, &mut vec![0; grid.dimension()]);
+                Hits::new(&landing, ground).in_regions(ground, origin)
+            }
+        }
+    };
+    (0..targets.num_originals()).into_par_iter().map_init(Vec::new, counts).collect()
 }

@@ -3,7 +3,7 @@
 use super::super::action_counts::ActionCounts;
 use super::super::room::Room;
 use super::bounds::{DIGITS, Interval};
-use super::ground::squared_distances;
+use super::events::squared_distances;
 use super::prepared::Prepared;
 use crate::noise::NoiseSamples;
 use crate::statistics::{lower_bound, upper_bound};

@@ -1,7 +1,7 @@
 //! Writing bmdp-tool's format.
 
 use super::REACH;
-use crate::model::{End, IntervalMdp, RowId, StateId};
+use crate::model::{End, IntervalMdp, RowBuffer, RowId, StateId};
 use crate::progress::Progress;
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -62,7 +62,8 @@ impl<'a> BmdpWriter<'a> {
 
     fn transitions(&self, state: StateId, action: usize, row: Option<RowId>, text: &mut String) {
         // Writing to a string cannot fail.
-        let Some(row) = row.map(|row| self.model.rows().row(row)) else {
+        let buffer = &mut RowBuffer::default();
+        let Some(row) = row.map(|row| self.model.rows().row(row, buffer)) else {
             let _ = writeln!(text, "{state} {action} {state} 1 1");
             return;
         };

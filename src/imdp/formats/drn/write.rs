@@ -49,14 +49,14 @@ struct RowTexts {
 impl RowTexts {
     fn render(model: &IntervalMdp) -> Self {
         let mut texts = Self { text: vec![], ends: vec![] };
-        for row in model.rows().iter() {
+        model.rows().for_each(|_, row| {
             for (i, successor) in row.successors.iter().enumerate() {
                 let (lower, upper) = (row.text(End::Lower, i), row.text(End::Upper, i));
                 let line = format!("\t\t{successor} : [{lower}, {upper}]\n");
                 texts.text.extend_from_slice(line.as_bytes());
             }
             texts.ends.push(texts.text.len());
-        }
+        });
         texts
     }
 

@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 use super::{MAGIC, Section, VERSION};
 use crate::files::Outputs;
 use crate::model::{
-    ActionNames, IntervalMdp, Labels, ModelKind, StateId, StateSet, StateVariables, VariableValues,
+    ActionNames, IntervalMdp, Labels, ModelKind, RowId, StateId, StateSet, StateVariables, VariableValues,
 };
 
 /// Writes a model to a file, `model.dynabs` by custom, which appears or is replaced as a whole.
@@ -33,7 +33,7 @@ pub fn write(model: &IntervalMdp, out: &mut impl Write) -> io::Result<()> {
         let problem = format!("row {row} has a bound that is not the shortest decimal of a double");
         return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
     }
-    let mut out = Hashing { out, hash: Sha256::new() };
+    let mut out = Hashing { out, hash: Sha256::new(), pending: vec![] };
     out.write_all(&MAGIC)?;
     out.write_all(&VERSION.to_le_bytes())?;
     let (rows, choices) = (model.rows(), model.choices());
@@ -43,13 +43,16 @@ pub fn write(model: &IntervalMdp, out: &mut impl Write) -> io::Result<()> {
     out.section(Section::Kind, 1)?;
     out.write_all(&[u8::from(model.kind() == ModelKind::Idtmc)])?;
     out.section(Section::RowLengths, 4 * rows.len() as u64)?;
-    out.array(rows.iter().map(|row| (row.len() as u32).to_le_bytes()))?;
+    out.array(RowId::first(rows.len()).map(|row| (rows.row_len(row) as u32).to_le_bytes()))?;
     out.section(Section::Successors, 4 * entries)?;
-    out.array(rows.iter().flat_map(|row| row.successors).map(|state| state.0.to_le_bytes()))?;
+    rows.try_for_each(|_, row| out.piece(row.successors.iter().map(|state| state.0.to_le_bytes())))?;
+    out.end_pieces()?;
     out.section(Section::Lower, 8 * entries)?;
-    out.array(rows.iter().flat_map(|row| row.lower).map(|bound| bound.to_le_bytes()))?;
+    rows.try_for_each(|_, row| out.piece(row.lower.iter().map(|bound| bound.to_le_bytes())))?;
+    out.end_pieces()?;
     out.section(Section::Upper, 8 * entries)?;
-    out.array(rows.iter().flat_map(|row| row.upper).map(|bound| bound.to_le_bytes()))?;
+    rows.try_for_each(|_, row| out.piece(row.upper.iter().map(|bound| bound.to_le_bytes())))?;
+    out.end_pieces()?;
     out.section(Section::RangeCounts, 4 * states as u64)?;
     out.array(every_state().map(|state| (choices.ranges(state).len() as u32).to_le_bytes()))?;
     out.section(Section::Ranges, 8 * choices.num_ranges() as u64)?;
@@ -82,6 +85,8 @@ fn name_bytes(name: &str) -> u64 {
 struct Hashing<'a, W> {
     out: &'a mut W,
     hash: Sha256,
+    /// Small items that wait for others.
+    pending: Vec<u8>,
 }
 
 impl<W: Write> Hashing<'_, W> {
@@ -106,6 +111,21 @@ impl<W: Write> Hashing<'_, W> {
             }
         }
         self.write_all(&buffer)
+    }
+
+    /// Writes small items that others follow.
+    fn piece<const N: usize>(&mut self, items: impl Iterator<Item = [u8; N]>) -> io::Result<()> {
+        self.pending.extend(items.flatten());
+        if self.pending.len() >= PIECE { self.end_pieces() } else { Ok(()) }
+    }
+
+    /// Writes what is left of them.
+    fn end_pieces(&mut self) -> io::Result<()> {
+        let pending = std::mem::take(&mut self.pending);
+        self.write_all(&pending)?;
+        self.pending = pending;
+        self.pending.clear();
+        Ok(())
     }
 
     fn set(&mut self, set: &StateSet, states: usize) -> io::Result<()> {

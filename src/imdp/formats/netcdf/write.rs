@@ -1,7 +1,7 @@
 //! Writing IntervalMDP.jl's files.
 
 use crate::formats::bmdp::padded_choices;
-use crate::model::{IntervalMdp, ModelKind, RowId, StateId, StateSet};
+use crate::model::{IntervalMdp, ModelKind, RowBuffer, RowId, StateId, StateSet};
 use hdf5_pure::{AttrValue, FileBuilder};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -57,9 +57,10 @@ impl<'a> NetcdfWriter<'a> {
         let model = self.model;
         let is_chain = model.kind() == ModelKind::Idtmc;
         let (mut starts, mut successors, mut lower, mut upper) = (vec![1], vec![], vec![], vec![]);
+        let mut buffer = RowBuffer::default();
         for state in StateId::first(model.num_states()) {
             for row in padded_choices(model, state, self.actions) {
-                match row.map(|row| model.rows().row(row)) {
+                match row.map(|row| model.rows().row(row, &mut buffer)) {
                     Some(row) => {
                         successors.extend(row.successors.iter().map(|&s| s.0 as i32 + 1));
                         lower.extend_from_slice(row.lower);

@@ -1,8 +1,8 @@
 //! The model with row states.
 
 use crate::model::{
-    ActionNames, ChoicesBuilder, ImdpError, IntervalMdp, Labels, MemoryError, Parts, RowId, RowRange, Rows,
-    StateId, StateSet, StateVariables, VariableValues, require_memory,
+    ActionNames, ChoicesBuilder, ImdpError, IntervalMdp, Labels, MemoryError, Parts, RowBuffer, RowId,
+    RowRange, Rows, StateId, StateSet, StateVariables, VariableValues, require_memory,
 };
 
 /// A model in the row-sharing encoding.
@@ -121,8 +121,9 @@ fn rows(model: &IntervalMdp, used: &[bool], count: usize) -> Rows {
         rows.push_entry(StateId::from_index(state), 1.0, 1.0);
         rows.finish_row();
     }
-    for (row, _) in model.rows().iter().zip(used).filter(|(_, used)| **used) {
-        rows.push_row(row);
+    let mut buffer = RowBuffer::default();
+    for (id, _) in RowId::first(used.len()).zip(used).filter(|(_, used)| **used) {
+        rows.push_row(model.rows().row(id, &mut buffer));
     }
     rows
 }

@@ -4,7 +4,7 @@ use super::super::query::Direction;
 use super::super::slow::Leads;
 use super::{Inexact, Work, digits};
 use crate::exact::{ExactRow, Numerators, common_multiple};
-use crate::model::{IntervalMdp, RowId, StateId, StateSet};
+use crate::model::{IntervalMdp, RowBuffer, RowId, StateId, StateSet};
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 
@@ -53,9 +53,11 @@ impl Part {
                 if taken.put(row.index()) {
                     continue;
                 }
-                let successors = model.rows().row(row).successors;
+                let buffer = &mut RowBuffer::default();
+                let row_content = model.rows().row(row, buffer);
+                let successors = row_content.successors;
                 work.spend(ENTRY * successors.len() as u64)?;
-                let exact = ExactRow::new(model.rows().row(row)).ok_or(Inexact::Unproved)?.into_numerators();
+                let exact = ExactRow::new(row_content).ok_or(Inexact::Unproved)?.into_numerators();
                 for (_, &s) in successors.iter().enumerate().filter(|(i, _)| possible(&exact, *i)) {
                     match moving.contains(s.index()) {
                         false => outside.insert(s.index()),
@@ -79,7 +81,8 @@ impl Part {
         let mut part = Self { states, options, rows: vec![], outside, scale };
         for (row, exact) in &found {
             work.spend(exact.lower.len() as u64 * digits(&part.scale))?;
-            let row = part.row(model.rows().row(*row).successors, exact);
+            let buffer = &mut RowBuffer::default();
+            let row = part.row(model.rows().row(*row, buffer).successors, exact);
             part.rows.push(row);
         }
         Ok(part)

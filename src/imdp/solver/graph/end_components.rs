@@ -1,7 +1,7 @@
 //! End components: where the maximising side can stay for ever while the minimising one is fixed.
 
 use super::tarjan::strong_components;
-use crate::model::{IntervalMdp, Row, RowId, StateId};
+use crate::model::{IntervalMdp, Row, RowBuffer, RowId, StateId};
 
 /// What the players can do in a part of the model, the minimising side being fixed.
 pub(in crate::solver) struct Candidates<'a> {
@@ -64,7 +64,8 @@ impl Candidates<'_> {
                         }
                     }
                 } else {
-                    let row = self.model.rows().row(self.rows[node - states]);
+                    let buffer = &mut RowBuffer::default();
+                    let row = self.model.rows().row(self.rows[node - states], buffer);
                     let possible = (0..row.len()).filter(|&i| self.possible(node - states, row, i));
                     out.extend(possible.filter_map(|i| position_of.get(&row.successors[i])));
                 }
@@ -85,7 +86,8 @@ impl Candidates<'_> {
     }
 
     fn can_stay(&self, position: usize, inside: &impl Fn(StateId) -> bool) -> bool {
-        let row = self.model.rows().row(self.rows[position]);
+        let buffer = &mut RowBuffer::default();
+        let row = self.model.rows().row(self.rows[position], buffer);
         match &self.supports {
             Some(supports) => {
                 row.successors.iter().zip(&supports[position]).all(|(s, possible)| !possible || inside(*s))

@@ -4,7 +4,7 @@ use super::super::query::{Direction, Players};
 use super::choice_tree::ChoiceTree;
 use super::zero_one::Analysis;
 use crate::exact::{ExactValues, Replaced, maximal_support};
-use crate::model::{ChoicesBuilder, IntervalMdp, RowRange, Rows, StateId, StateSet};
+use crate::model::{ChoicesBuilder, IntervalMdp, RowRange, RowSet, Rows, StateId, StateSet};
 
 /// A rank for every moving state with `L > 0`, as [`crate::verify`] wants it.
 ///
@@ -36,7 +36,8 @@ pub(in crate::solver) fn ranks(
         }
     };
     let lower = ExactValues::to_compare(lower, exact);
-    let supports = (players.nature == Direction::Max).then(|| maximal_supports(model.rows(), &lower));
+    let supports: Option<RowSet> =
+        (players.nature == Direction::Max).then(|| maximal_supports(model.rows(), &lower).into());
     // Of a support, every distribution is taken to give all of it positive probability.
     let players = Players { nature: Direction::Min, ..players };
     let rows = supports.as_ref().unwrap_or(model.rows());
@@ -51,14 +52,14 @@ pub(in crate::solver) fn ranks(
 }
 
 /// The rows reduced to what optimal distributions of a maximising nature may use, with bounds above 0.
-fn maximal_supports(rows: &Rows, lower: &ExactValues<'_>) -> Rows {
+fn maximal_supports(rows: &RowSet, lower: &ExactValues<'_>) -> Rows {
     let mut supports = Rows::with_capacity(rows.len(), rows.num_entries());
-    for row in rows.iter() {
+    rows.for_each(|_, row| {
         let support = maximal_support(row, lower).unwrap_or_default();
         for (&s, _) in row.successors.iter().zip(support).filter(|(_, possible)| *possible) {
             supports.push_entry(s, f64::MIN_POSITIVE, 1.0);
         }
         supports.finish_row();
-    }
+    });
     supports
 }

@@ -13,7 +13,7 @@ use super::super::policy::{NO_CHOICE, first_choice};
 use super::super::query::{Direction, Players};
 use super::choice_tree::ChoiceTree;
 use super::decide::{compare_with_one, lower_covers_one, margin, upper_covers_one};
-use crate::model::{End, IntervalMdp, Row, RowId, Rows, StateId, StateSet};
+use crate::model::{End, IntervalMdp, Row, RowBuffer, RowId, RowSet, StateId, StateSet};
 use std::cmp::Ordering;
 
 /// The states with the extreme values.
@@ -46,11 +46,11 @@ pub(in crate::solver) fn zero_one(
             choices[s] = first_choice(model.choices(), StateId::from_index(s), stays).unwrap_or(NO_CHOICE);
         }
     }
-    let mut certain = positive.clone();
+    let (mut certain, mut buffer) = (positive.clone(), RowBuffer::default());
     loop {
         for row in 0..rows {
             let keep = allowed.contains(row)
-                && stays(model.rows().row(RowId::from_index(row)), players.nature, |s| {
+                && stays(model.rows().row(RowId::from_index(row), &mut buffer), players.nature, |s| {
                     certain.contains(s.index())
                 });
             allowed.set(row, keep);
@@ -85,7 +85,7 @@ pub(in crate::solver) fn stays(
 
 /// What is needed to find the states from which a set is met with positive probability.
 pub(super) struct Analysis<'a> {
-    rows: &'a Rows,
+    rows: &'a RowSet,
     goal: &'a StateSet,
     players: Players,
     tree: &'a ChoiceTree,
@@ -93,7 +93,7 @@ pub(super) struct Analysis<'a> {
 }
 
 impl<'a> Analysis<'a> {
-    pub(super) fn new(rows: &'a Rows, goal: &'a StateSet, players: Players, tree: &'a ChoiceTree) -> Self {
+    pub(super) fn new(rows: &'a RowSet, goal: &'a StateSet, players: Players, tree: &'a ChoiceTree) -> Self {
         Self { rows, goal, players, tree, predecessors: Predecessors::new(rows, goal.len()) }
     }
 
@@ -117,8 +117,9 @@ impl<'a> Analysis<'a> {
             Direction::Min => row.upper[i],
             Direction::Max => row.lower[i],
         };
-        let mut outside: Vec<f64> =
-            rows.iter().map(|row| (0..row.len()).map(|i| bounds(row, i)).sum()).collect();
+        let mut outside: Vec<f64> = Vec::with_capacity(rows.len());
+        rows.for_each(|_, row| outside.push((0..row.len()).map(|i| bounds(row, i)).sum()));
+        let mut buffer = RowBuffer::default();
         let mut work: Vec<StateId> = self.goal.ones().map(StateId::from_index).collect();
         while let Some(state) = work.pop() {
             for &id in self.predecessors.get(state) {
@@ -126,7 +127,7 @@ impl<'a> Analysis<'a> {
                 if done.contains(index) || !allowed.contains(index) {
                     continue;
                 }
-                let row = rows.row(id);
+                let row = rows.row(id, &mut buffer);
                 let Ok(i) = row.successors.binary_search(&state) else { continue };
                 outside[index] -= bounds(row, i);
                 if !self.hits(row, &reached, outside[index], i) {
@@ -169,21 +170,19 @@ struct Predecessors {
 }
 
 impl Predecessors {
-    fn new(all: &Rows, states: usize) -> Self {
+    fn new(all: &RowSet, states: usize) -> Self {
         let mut starts = vec![0; states + 1];
-        for row in all.iter() {
-            row.successors.iter().for_each(|&s| starts[s.index() + 1] += 1);
-        }
+        all.for_each(|_, row| row.successors.iter().for_each(|&s| starts[s.index() + 1] += 1));
         for state in 0..states {
             starts[state + 1] += starts[state];
         }
         let (mut next, mut rows) = (starts.clone(), vec![RowId(0); all.num_entries()]);
-        for (id, row) in RowId::first(all.len()).zip(all.iter()) {
+        all.for_each(|id, row| {
             for &s in row.successors {
                 rows[next[s.index()]] = id;
                 next[s.index()] += 1;
             }
-        }
+        });
         Self { starts, rows }
     }
 

@@ -3,7 +3,7 @@
 use super::super::expectation::{Bound, RowBlock};
 use super::super::query::{Direction, Players};
 use super::costs;
-use crate::model::{IntervalMdp, RewardStructure, RowId, Rows, StateId};
+use crate::model::{IntervalMdp, RewardStructure, RowBuffer, RowId, RowSet, Rows, StateId};
 
 /// A choice that a state may make.
 struct Choice {
@@ -20,7 +20,7 @@ pub(super) struct Operator {
     pub(super) states: Vec<StateId>,
     players: Players,
     choices: Vec<Vec<Choice>>,
-    rows: Rows,
+    rows: RowSet,
     block: RowBlock,
     /// How many states the model has; rows with rewards on branches have successors of their own beyond them.
     model_states: usize,
@@ -40,7 +40,7 @@ impl Operator {
     ) -> Self {
         let first_choices = model.choices().first_choices();
         let mut shared = vec![None; model.rows().len()];
-        let mut rows = Rows::new();
+        let (mut rows, mut buffer) = (Rows::new(), RowBuffer::default());
         let mut branches = vec![];
         let model_states = model.num_states();
         let mut choices = vec![];
@@ -55,7 +55,7 @@ impl Operator {
                 let local = match (of_branches, shared[row.index()]) {
                     (None, Some(local)) => local,
                     _ => {
-                        let source = model.rows().row(row);
+                        let source = model.rows().row(row, &mut buffer);
                         for (position, &successor) in source.successors.iter().enumerate() {
                             let is_possible = possible(successor);
                             let successor = match of_branches.map(|of_branches| of_branches[position]) {
@@ -87,6 +87,7 @@ impl Operator {
             }
             choices.push(own);
         }
+        let rows = RowSet::from(rows);
         let block = RowBlock::new(&rows, RowId::first(rows.len()).collect());
         Self { states, players, choices, rows, block, model_states, branches }
     }

@@ -7,7 +7,7 @@ use super::super::policy::NO_CHOICE;
 use super::super::query::{Direction, Players};
 use super::super::{Policy, Solution, SolverOptions, Status, ValueBounds};
 use super::operator::Operator;
-use crate::model::{IntervalMdp, RewardStructure, RowId, StateId, StateSet};
+use crate::model::{IntervalMdp, RewardStructure, RowBuffer, RowId, StateId, StateSet};
 
 /// Sweeps in which a lower bound that was derived from the upper one is lowered until it holds.
 const REPAIRS: usize = 256;
@@ -29,7 +29,11 @@ pub(super) fn reach(
     let finite = zero_one(model, goal, &moving, willing).certain;
     let inside = |s: StateId| finite.contains(s.index());
     let usable: Vec<bool> = RowId::first(model.rows().len())
-        .map(|row| players.policy == Direction::Max || stays(model.rows().row(row), willing.nature, inside))
+        .map(|row| {
+            players.policy == Direction::Max || {
+                stays(model.rows().row(row, &mut RowBuffer::default()), willing.nature, inside)
+            }
+        })
         .collect();
     let usable = |row: RowId| usable[row.index()];
     let open: Vec<StateId> = finite.ones().filter(|&s| moving.contains(s)).map(StateId::from_index).collect();

@@ -8,7 +8,7 @@ use super::super::query::Direction;
 use super::fixed::{ceil_f64, floor_f64};
 use super::fixed_row::FixedRow;
 use super::game::{Game, Node, Strategy};
-use crate::model::{Choices, RowId, StateId};
+use crate::model::{Choices, RowBuffer, RowId, StateId};
 use std::collections::HashMap;
 
 /// More choices than this are not written out, state by state.
@@ -150,7 +150,8 @@ impl Collector<'_, '_, '_> {
         }
         let shared = &*self.component.shared;
         let row = if shared.own_rows.contains(id.index()) {
-            let row = shared.model.rows().row(id);
+            let buffer = &mut RowBuffer::default();
+            let row = shared.model.rows().row(id, buffer);
             let targets = row.successors.iter().map(|&s| self.target(s)).collect();
             FixedRow::new(row, targets)?
         } else {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::BufRead;
 
 use crate::formats::import::{Fault, Fields, ImportError, Lines, read_reward};
-use crate::model::{IntervalMdp, ModelKind, RewardStructure, StateId};
+use crate::model::{IntervalMdp, ModelKind, RewardStructure, RowBuffer, StateId};
 
 /// Reads state rewards into a structure; returns the name that a comment gives.
 pub(super) fn read_srew<R: BufRead>(
@@ -40,7 +40,8 @@ pub(super) fn read_trew<R: BufRead>(
             ModelKind::Idtmc => 0,
         };
         let destination = StateId(fields.number("a destination", model.num_states() as u64)? as u32);
-        let row = choices.row_of_choice(state, number as u32).map(|row| model.rows().row(row));
+        let buffer = &mut RowBuffer::default();
+        let row = choices.row_of_choice(state, number as u32).map(|row| model.rows().row(row, buffer));
         let (position, length) = match row {
             Some(row) => (row.successors.binary_search(&destination).ok(), row.len()),
             // A self-loop has no row.

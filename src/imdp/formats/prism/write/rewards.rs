@@ -1,7 +1,7 @@
 //! The `.srew` and `.trew` files: what is earned in states, and by choices on their branches.
 
 use crate::formats::import::enclose;
-use crate::model::{IntervalMdp, ModelKind, RewardStructure, StateId};
+use crate::model::{IntervalMdp, ModelKind, RewardStructure, RowBuffer, StateId};
 use crate::numeric::{from_decimal, shortest_decimal};
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -73,7 +73,8 @@ impl<'a> RewardFile<'a> {
                 choice += 1;
             }
             for (number, row) in model.choices().rows(state).enumerate() {
-                for (position, &successor) in model.rows().row(row).successors.iter().enumerate() {
+                let buffer = &mut RowBuffer::default();
+                for (position, &successor) in model.rows().row(row, buffer).successors.iter().enumerate() {
                     push(number, successor, position, choice);
                 }
                 choice += 1;

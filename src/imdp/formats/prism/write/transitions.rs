@@ -57,7 +57,7 @@ struct RowTexts {
 impl RowTexts {
     fn render(model: &IntervalMdp) -> Self {
         let mut texts = Self { first_entry: vec![0], ..Self::default() };
-        for (id, row) in model.rows().iter().enumerate() {
+        model.rows().for_each(|id, row| {
             let tail = match model.actions() {
                 ActionNames::None => "\n".to_owned(),
                 ActionNames::OfRow => format!(" a_{id}\n"),
@@ -77,7 +77,7 @@ impl RowTexts {
                 texts.ends.push(texts.text.len());
             }
             texts.first_entry.push(texts.ends.len());
-        }
+        });
         texts
     }
 

@@ -64,7 +64,7 @@ impl RowBytes {
         let entries = model.rows().num_entries();
         let (mut targets, mut bounds) = (Vec::with_capacity(8 * entries), Vec::with_capacity(16 * entries));
         let mut starts = vec![0];
-        for row in model.rows().iter() {
+        model.rows().for_each(|_, row| {
             for ((&successor, &lower), &upper) in row.successors.iter().zip(row.lower).zip(row.upper) {
                 let lower = raised.filter(|_| lower == 0.0).unwrap_or(lower);
                 targets.extend(u64::from(successor).to_le_bytes());
@@ -72,7 +72,7 @@ impl RowBytes {
                 bounds.extend(upper.max(lower).to_le_bytes());
             }
             starts.push(targets.len() / 8);
-        }
+        });
         Self { targets, bounds, starts }
     }
 
@@ -233,16 +233,16 @@ impl<'a> UmbWriter<'a> {
 
 /// A tiny positive number that is not a bound of the model, if it has lower bounds of 0.
 fn raised_lower_bound(model: &IntervalMdp) -> Option<f64> {
-    let mut lower = model.rows().iter().flat_map(|row| row.lower);
-    if !lower.any(|&lower| lower == 0.0) {
+    if !model.rows().any(|row| row.lower.contains(&0.0)) {
         return None;
     }
-    let bounds = model.rows().iter().flat_map(|row| row.lower.iter().chain(row.upper));
-    let taken: HashSet<u64> =
-        bounds.filter(|&&bound| bound <= RAISED_LOWER_BOUND).map(|bound| bound.to_bits()).collect();
-    let upper = model.rows().iter().flat_map(|row| row.upper).filter(|&&upper| upper > 0.0);
     // Not above any upper bound, which may be smaller still.
-    let mut raised = upper.copied().fold(RAISED_LOWER_BOUND, f64::min);
+    let (mut taken, mut raised) = (HashSet::new(), RAISED_LOWER_BOUND);
+    model.rows().for_each(|_, row| {
+        let bounds = row.lower.iter().chain(row.upper);
+        taken.extend(bounds.filter(|&&bound| bound <= RAISED_LOWER_BOUND).map(|bound| bound.to_bits()));
+        raised = row.upper.iter().copied().filter(|&upper| upper > 0.0).fold(raised, f64::min);
+    });
     while taken.contains(&raised.to_bits()) && raised.next_down() > 0.0 {
         raised = raised.next_down();
     }

@@ -1,41 +1,12 @@
-//! Where the noise of each action lands, with the intervals of the cells there.
+//! The events of cells, and their intervals.
 
 use super::super::action_counts::ActionCounts;
 use super::super::cell_box::CellBox;
 use super::super::cell_counts::{CellCounts, Count};
 use super::super::targets::Targets;
-use super::PacRows;
 use super::bounds::{BoundTable, Interval};
 use crate::problem::Problem;
 use rayon::prelude::*;
-use std::borrow::Cow;
-
-/// Where the noise of one action lands.
-pub(super) struct Ground<'a> {
-    pub(super) landing: Cow<'a, CellCounts>,
-    pub(super) windows: Cow<'a, [CellBox]>,
-    /// The cell that coordinates count from.
-    pub(super) origin: Vec<i32>,
-    /// The intervals of the landing's table.
-    pub(super) intervals: Cow<'a, [Interval]>,
-}
-
-impl<'a> Ground<'a> {
-    pub(super) fn new(rows: &'a PacRows<'_>, target: usize) -> Self {
-        let grid = rows.problem.grid();
-        let mut origin = vec![0; grid.dimension()];
-        let (landing, windows) = rows.landings.of(rows.targets, target, grid, &mut origin);
-        let intervals = match (rows.room(target), &rows.shared) {
-            (Some(room), _) => Cow::Borrowed(&room.intervals[..]),
-            (None, Some(intervals)) => Cow::Borrowed(&intervals[..]),
-            (None, None) => {
-                let from = rows.landings.target_cell(rows.targets, target);
-                Cow::Owned(intervals(&landing, &from, &rows.cells))
-            }
-        };
-        Self { landing, windows, origin, intervals }
-    }
-}
 
 /// The events of cells that occur: counts, and squared distances from the target's cell.
 pub(super) fn cell_events(

@@ -1,0 +1,51 @@
+//! How much memory may be used, and how much was.
+
+use crate::summary::thousands_of_mib;
+use imdp::model::{limit_memory, peak_memory};
+
+/// Parses a number of bytes such as `500M` or `16G`.
+///
+/// # Errors
+/// What was expected.
+pub(crate) fn bytes(text: &str) -> Result<u64, String> {
+    let (digits, unit) = match text.to_ascii_uppercase().strip_suffix(['K', 'M', 'G', 'T']) {
+        Some(digits) => (digits.to_owned(), text[digits.len()..].to_ascii_uppercase()),
+        None => (text.to_owned(), String::new()),
+    };
+    let shift = match unit.as_str() {
+        "" => 0,
+        "K" => 10,
+        "M" => 20,
+        "G" => 30,
+        _ => 40,
+    };
+    let number = digits.parse::<u64>().ok().and_then(|number| number.checked_mul(1 << shift));
+    number
+        .filter(|&bytes| bytes > 0)
+        .ok_or_else(|| "expected a number of bytes such as 500M or 16G".to_owned())
+}
+
+/// Makes the tool refuse what would need more memory than given.
+pub(crate) fn use_memory(limit: Option<u64>) {
+    limit.into_iter().for_each(limit_memory);
+}
+
+/// The most memory used so far, for people; nothing where the system does not tell.
+pub(crate) fn peak() -> String {
+    peak_memory().map_or(String::new(), |bytes| format!("; peak memory {} MiB", thousands_of_mib(bytes)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::bytes;
+
+    #[test]
+    fn sizes_have_units() {
+        assert_eq!(bytes("1024"), Ok(1024));
+        assert_eq!(bytes("500M"), Ok(500 << 20));
+        assert_eq!(bytes("16g"), Ok(16 << 30));
+        for wrong in ["", "G", "-1", "1.5G", "0", "99999999999T", "1GB"] {
+            assert!(bytes(wrong).is_err(), "{wrong}");
+        }
+    }
+}
