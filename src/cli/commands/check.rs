@@ -24,7 +24,7 @@ pub struct CheckArguments {
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
 
-    /// Refuse what needs more memory than this, such as 500M or 16G.
+    /// Refuse what needs more memory than this, such as 500M or 16G; another engine may use as much.
     #[arg(long, global = true, value_name = "LIMIT", value_parser = bytes)]
     memory: Option<u64>,
 }
@@ -61,6 +61,7 @@ the bounds straddle the threshold, or an engine gave no answer), 4 I/O, memory o
 pub fn run(arguments: &CheckArguments) -> Result<ExitCode, CliError> {
     use_threads(arguments.threads)?;
     use_memory(arguments.memory);
+    let memory = arguments.memory;
     match &arguments.command {
         Command::Solve(arguments) => solve(arguments),
         Command::Controller(arguments) => controller(arguments),
@@ -69,6 +70,6 @@ pub fn run(arguments: &CheckArguments) -> Result<ExitCode, CliError> {
         Command::Convert(arguments) => convert(arguments),
         Command::Report(arguments) => report(arguments),
         Command::Diff(arguments) => diff(arguments),
-        Command::Crosscheck(arguments) => crosscheck(arguments),
+        Command::Crosscheck(arguments) => crosscheck(arguments, memory),
     }
 }

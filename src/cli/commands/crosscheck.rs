@@ -47,10 +47,6 @@ pub struct CrosscheckArguments {
     #[arg(long, value_name = "SECONDS", default_value_t = 600.0, value_parser = super::solve::seconds)]
     timeout: f64,
 
-    /// The memory an engine may use, such as 512m or 8g. Default: three quarters of what is available.
-    #[arg(long, value_name = "SIZE", value_parser = mebibytes)]
-    memory: Option<u64>,
-
     /// Unbounded properties: how close our own bounds must be.
     #[arg(long, value_name = "E", default_value_t = 1e-10, value_parser = super::solve::positive)]
     epsilon: f64,
@@ -84,20 +80,14 @@ Examples:
   dynabs-check crosscheck out --with all
   dynabs-check crosscheck out --with prism --prism ~/prism/bin/prism --memory 8g -p 'Pmaxmin=? [ F \"reached\" ]'";
 
-fn mebibytes(text: &str) -> Result<u64, String> {
-    let (digits, factor) = match text.to_ascii_lowercase() {
-        lower if lower.ends_with('g') => (lower[..lower.len() - 1].to_owned(), 1024),
-        lower => (lower.strip_suffix('m').map(str::to_owned).unwrap_or_default(), 1),
-    };
-    let number = digits.parse::<u64>().ok().and_then(|n| n.checked_mul(factor)).filter(|n| *n >= 16);
-    number.ok_or_else(|| "expected at least 16m, such as 512m or 8g".to_owned())
-}
+/// No engine does anything with less.
+const LEAST_MEMORY_MIB: u64 = 16;
 
-/// Runs the subcommand.
+/// Runs the subcommand; an engine may use so much memory in bytes, else three quarters of what is available.
 ///
 /// # Errors
 /// [`CliError`], which knows its exit code.
-pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
+pub fn run(arguments: &CrosscheckArguments, memory: Option<u64>) -> Result<ExitCode, CliError> {
     let Engines { found, missing } = find_engines(arguments)?;
     let bars = Arc::new(Bars::new(arguments.quiet));
     let loaded = load(&arguments.path, false, &bars)?;
@@ -113,9 +103,8 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     say(arguments, &missing.iter().map(ToString::to_string).collect::<Vec<_>>(), "missing: ");
 
     bars.catch_interrupts();
-    let memory_mib = arguments
-        .memory
-        .unwrap_or_else(|| available_memory().map_or(4096, |(bytes, _)| (bytes >> 20) / 4 * 3));
+    let available = || available_memory().map_or(4 << 30, |(bytes, _)| bytes / 4 * 3);
+    let memory_mib = (memory.unwrap_or_else(available) >> 20).max(LEAST_MEMORY_MIB);
     let limits = RunLimits {
         timeout: Duration::from_secs_f64(arguments.timeout),
         memory_mib,
