@@ -137,8 +137,12 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
 
 /// What the task is worth from every state, roughly: never above the value.
 fn scout(model: &IntervalMdp, property: &Property) -> Result<Vec<f64>, AbstractionError> {
-    let options =
-        SolverOptions { max_iterations: SCOUT_ITERATIONS, epsilon: 1e-3, ..SolverOptions::default() };
+    let options = SolverOptions {
+        max_iterations: SCOUT_ITERATIONS,
+        epsilon: 1e-3,
+        upper: false,
+        ..SolverOptions::default()
+    };
     Ok(Answer::new(model, property, &options)?.values.lower)
 }
 

@@ -118,7 +118,8 @@ fn ranges(problem: &Problem, steering: &Steering) -> u64 {
     found.saturating_mul(u64::from(cells)) / u64::from(probed) * 5 / 4
 }
 
-/// How many entries the rows of so many targets have at most: the cells in a box around all samples, wherever a target sits.
+/// How many entries the rows of so many targets have at most: the cells in a box around all samples, wherever a target sits, and
+/// two for what is not listed cell by cell.
 fn entries(problem: &Problem, targets: u64) -> u64 {
     let samples = &problem.noise().samples;
     let along = problem.grid().axes().iter().enumerate().map(|(j, axis)| {
@@ -130,5 +131,5 @@ fn entries(problem: &Problem, targets: u64) -> u64 {
         let (a, b) = ((lowest + 0.5).floor() as i64, (highest + 0.5).floor() as i64);
         (b.min(cells) - a.max(-cells) + 2).min(cells) as u64
     });
-    along.fold(targets, u64::saturating_mul)
+    along.fold(1, u64::saturating_mul).saturating_add(2).saturating_mul(targets)
 }

@@ -4,7 +4,7 @@ use std::sync::{Mutex, PoisonError};
 
 /// The arrays of a step, for the next one: to get fresh memory takes longer than to fill it.
 #[derive(Debug, Default)]
-pub(super) struct Arrays(Mutex<Vec<Vec<f64>>>);
+pub(crate) struct Arrays(Mutex<Vec<Vec<f64>>>);
 
 /// More arrays than a step has at the same time are not kept.
 const MOST: usize = 3;

@@ -15,7 +15,7 @@ const LEAST: usize = 1 << 13;
 
 /// Turns `outer × len × inner` numbers into `outer × ranges × inner`: the extrema over ranges of the middle axis.
 #[derive(Clone, Debug)]
-pub(super) struct Gather {
+pub(crate) struct Gather {
     len: usize,
     inner: usize,
     periodic: bool,
@@ -27,7 +27,7 @@ pub(super) struct Gather {
 
 impl Gather {
     /// Ranges of axis `j` of an array of some shape, none of them empty.
-    pub(super) fn new(j: usize, shape: &[usize], periodic: bool, ranges: Vec<(u32, u32)>) -> Self {
+    pub(crate) fn new(j: usize, shape: &[usize], periodic: bool, ranges: Vec<(u32, u32)>) -> Self {
         let mut by_level: Vec<Vec<u32>> = vec![];
         for (index, (_, size)) in (0..).zip(&ranges) {
             let level = size.max(&1).ilog2() as usize;
@@ -38,7 +38,7 @@ impl Gather {
     }
 
     /// The extrema.
-    pub(super) fn apply<S: Side>(&self, values: &[f64], arrays: &Arrays) -> Vec<f64> {
+    pub(crate) fn apply<S: Side>(&self, values: &[f64], arrays: &Arrays) -> Vec<f64> {
         let Self { len, inner, .. } = *self;
         let count = self.ranges.len();
         let mut out = arrays.take(values.len() / len * count);

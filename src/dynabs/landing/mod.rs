@@ -39,7 +39,9 @@ mod taps;
 mod tests;
 mod weights;
 
+pub(crate) use arrays::Arrays;
 pub use axis::Axis;
+pub(crate) use gather::Gather;
 pub use images::{ImageSource, Images, LandingError, occurring};
 pub use layout::Layout;
 pub use model::LandingModel;

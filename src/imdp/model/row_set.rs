@@ -25,6 +25,9 @@ pub trait ComputedRows: Debug + Send + Sync {
 
     /// The row with this id, in the buffer as far as it is not at hand.
     fn row<'a>(&'a self, id: RowId, buffer: &'a mut RowBuffer) -> Row<'a>;
+
+    /// Per row, at least the largest of these numbers `≥ 0` of states among its successors.
+    fn most_of_successors(&self, of_states: &[f64]) -> Vec<f64>;
 }
 
 /// Where rows are computed: whatever it held before is lost.
@@ -105,6 +108,15 @@ impl RowSet {
         match self {
             Self::Stored(rows) => rows.row(id),
             Self::Computed(rows) => rows.row(id, buffer),
+        }
+    }
+
+    /// Per row, at least the largest of these numbers `≥ 0` of states among its successors; how much more depends on what is
+    /// known without looking at rows.
+    pub fn most_of_successors(&self, of_states: &[f64]) -> Vec<f64> {
+        match self {
+            Self::Stored(rows) => vec![of_states.iter().copied().fold(0.0, f64::max); rows.len()],
+            Self::Computed(rows) => rows.most_of_successors(of_states),
         }
     }
 

@@ -2,6 +2,7 @@
 //!
 //! `V_0 = 1_goal`, `V_{k+1}(s) = opt_a opt_p p·V_k` for safe states that are not goal states.
 
+use super::contenders::Contenders;
 use super::evidence::Recorder;
 use super::expectation::Bound;
 use super::history::History;
@@ -57,6 +58,7 @@ pub(super) fn next(
     let mut iteration = Iteration::new(model, players, states, goal, options);
     // `X` is no `U<=1`: a goal state may be left at once.
     iteration.monotone = false;
+    iteration.contenders = None;
     iteration.step(1)?;
     Ok(iteration.finish(1, Status::HorizonReached, 1))
 }
@@ -77,10 +79,13 @@ struct Iteration<'a> {
     upper: Vec<f64>,
     lower_rows: RangeOptimum,
     upper_rows: RangeOptimum,
+    /// Of lower and of upper bounds.
+    contenders: Option<[Contenders; 2]>,
     results: Vec<f64>,
     gap: f64,
     /// Whether values can only grow from step to step.
     monotone: bool,
+    wants_upper: bool,
     /// The current choice of every state, if a policy is wanted, and all changes of it.
     current: Option<Vec<u32>>,
     changes: Vec<(StateId, u64, u32)>,
@@ -102,6 +107,8 @@ impl<'a> Iteration<'a> {
         let mut table = RangeOptimum::new(players.policy, model.rows().len());
         table.prepare(model.choices(), &states);
         let rows = model.choices().used_rows(model.rows().len(), states.iter().copied());
+        let maximises = players.policy == Direction::Max;
+        let contenders = maximises.then(|| Contenders::new(model)).flatten();
         Self {
             model,
             players,
@@ -109,9 +116,11 @@ impl<'a> Iteration<'a> {
             upper: indicator(goal),
             lower_rows: table.clone(),
             upper_rows: table,
+            contenders: contenders.map(|contenders| [contenders.clone(), contenders]),
             results: vec![],
             gap: 0.0,
             monotone: true,
+            wants_upper: options.upper,
             current: (options.policy || options.evidence).then(|| vec![NO_CHOICE; model.num_states()]),
             changes: vec![],
             memory: GrowingMemory::new("the policy"),
@@ -133,13 +142,15 @@ impl<'a> Iteration<'a> {
             let bytes = |changes: usize| CHANGE_BYTES * changes as u64;
             self.memory.make_room(bytes(self.changes.len()), bytes(self.sweep.states.len()))?;
         }
+        self.history.keep(&self.lower);
+        self.evaluate_rows(Bound::Lower);
+        if self.wants_upper {
+            self.evaluate_rows(Bound::Upper);
+        }
         let mut recorder = self.recorder.as_mut();
         if let Some(recorder) = &mut recorder {
             recorder.begin()?;
         }
-        self.history.keep(&self.lower);
-        self.sweep.evaluate_rows(&self.lower, Bound::Lower, &mut self.lower_rows);
-        self.sweep.evaluate_rows(&self.upper, Bound::Upper, &mut self.upper_rows);
         self.sweep.evaluate_states(&self.lower_rows, &mut self.results);
         for (i, (&s, &value)) in self.sweep.states.iter().zip(&self.results).enumerate() {
             let old = &mut self.lower[s.index()];
@@ -154,7 +165,11 @@ impl<'a> Iteration<'a> {
                 }
             }
         }
-        self.sweep.evaluate_states(&self.upper_rows, &mut self.results);
+        if self.wants_upper {
+            self.sweep.evaluate_states(&self.upper_rows, &mut self.results);
+        } else {
+            self.results.fill(1.0);
+        }
         for (&s, &value) in self.sweep.states.iter().zip(&self.results) {
             let old = &mut self.upper[s.index()];
             if value != *old {
@@ -171,6 +186,20 @@ impl<'a> Iteration<'a> {
         }
         self.update_policy(left);
         Ok(changed)
+    }
+
+    /// Evaluates the rows that may be the best of some state.
+    fn evaluate_rows(&mut self, side: Bound) {
+        let Self { model, sweep, contenders, .. } = self;
+        let (values, table, place) = match side {
+            Bound::Lower => (&self.lower, &mut self.lower_rows, 0),
+            Bound::Upper => (&self.upper, &mut self.upper_rows, 1),
+        };
+        let Some(contenders) = contenders.as_mut().map(|contenders| &mut contenders[place]) else {
+            return sweep.evaluate_rows(values, side, table);
+        };
+        contenders.look(model, &sweep.states, values, table);
+        sweep.evaluate_some_rows(values, side, table, |row| contenders.wants(row));
     }
 
     /// Replaces the choices that are no longer optimal on the side that the policy must guarantee.

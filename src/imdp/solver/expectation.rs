@@ -68,17 +68,19 @@ impl RowBlock {
         Self { critical: vec![0; rows.len()], rows, slacks, scratch: Scratch::default(), buffer }
     }
 
-    /// The expectations of the rows of the block, in their order.
+    /// The expectations of the rows of the block, in their order; those that are `known` are taken as they are.
     pub(super) fn evaluate(
         &mut self,
         all: &RowSet,
         values: &[f64],
-        nature: Direction,
-        side: Bound,
+        (nature, side): (Direction, Bound),
+        known: impl Fn(RowId) -> Option<f64>,
     ) -> Vec<f64> {
         let Self { rows, critical, slacks, scratch, buffer } = self;
         let expectations = rows.iter().zip(slacks).zip(critical).map(|((&id, slack), critical)| {
-            expectation((all.row(id, buffer), *slack), values, (critical, scratch), nature, side)
+            known(id).unwrap_or_else(|| {
+                expectation((all.row(id, buffer), *slack), values, (critical, scratch), nature, side)
+            })
         });
         expectations.collect()
     }
@@ -123,11 +125,10 @@ fn expectation(
     }
     scratch.values.clear();
     scratch.values.extend(row.successors.iter().map(|&s| values[s.index()]));
-    let (lowest, highest) = extremes(row, &scratch.values);
+    let Overview { lowest, highest, base } = Overview::new(row, &scratch.values);
     if lowest >= highest {
         return lowest.min(highest).max(0.0);
     }
-    let base = dot(row.lower, &scratch.values);
     // `rounding_factor` doubles: this is η = (2m + 8)ε.
     let margin = rounding_factor(row.len() + 4);
     let slack = match side {
@@ -149,28 +150,45 @@ fn expectation(
     }
 }
 
-/// The least and the greatest value of a successor that can have any mass; the others bound nothing.
-fn extremes(row: Row<'_>, values: &[f64]) -> (f64, f64) {
-    let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
-    for (&value, &upper) in values.iter().zip(row.upper) {
-        let (low, high) = if upper > 0.0 { (value, value) } else { (f64::INFINITY, f64::NEG_INFINITY) };
-        lowest = if low < lowest { low } else { lowest };
-        highest = if high > highest { high } else { highest };
-    }
-    (lowest, highest)
+/// What is known of a row before anything is poured.
+struct Overview {
+    /// The least value of a successor that can have any mass; the others bound nothing.
+    lowest: f64,
+    /// The greatest one.
+    highest: f64,
+    /// `Σ l V` in four interleaved sums, which the error bound for one sum covers as well.
+    base: f64,
 }
 
-/// `Σ a b` in four interleaved sums, which the error bound for one sum covers as well.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (a, b) = (a.chunks_exact(4), b.chunks_exact(4));
-    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in a.zip(b) {
-        for lane in 0..4 {
-            sums[lane] += a[lane] * b[lane];
+impl Overview {
+    fn new(row: Row<'_>, values: &[f64]) -> Self {
+        // Arrays that stay in registers.
+        let (mut lowest, mut highest, mut sums) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4], [0.0; 4]);
+        let (values, lower, upper) =
+            (values.as_chunks::<4>(), row.lower.as_chunks::<4>(), row.upper.as_chunks::<4>());
+        for ((values, lower), upper) in values.0.iter().zip(lower.0).zip(upper.0) {
+            for lane in 0..4 {
+                let value = values[lane];
+                let (low, high) =
+                    if upper[lane] > 0.0 { (value, value) } else { (f64::INFINITY, f64::NEG_INFINITY) };
+                lowest[lane] = if low < lowest[lane] { low } else { lowest[lane] };
+                highest[lane] = if high > highest[lane] { high } else { highest[lane] };
+                sums[lane] += lower[lane] * value;
+            }
+        }
+        let mut rest = 0.0;
+        for ((&value, &lower), &upper) in values.1.iter().zip(lower.1).zip(upper.1) {
+            if upper > 0.0 {
+                (lowest[0], highest[0]) = (value.min(lowest[0]), value.max(highest[0]));
+            }
+            rest += lower * value;
+        }
+        Self {
+            lowest: lowest.into_iter().fold(f64::INFINITY, f64::min),
+            highest: highest.into_iter().fold(f64::NEG_INFINITY, f64::max),
+            base: (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest,
         }
     }
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 /// The distribution that attains the optimum, up to rounding: `p − l` by position.
@@ -226,7 +244,7 @@ mod tests {
                 for nature in [Direction::Min, Direction::Max] {
                     let expected = sorted(rows.row(id, &mut buffer), &values, nature);
                     let [low, high] = [Bound::Lower, Bound::Upper]
-                        .map(|side| block.evaluate(&rows, &values, nature, side)[0]);
+                        .map(|side| block.evaluate(&rows, &values, (nature, side), |_| None)[0]);
                     prop_assert!(low <= expected && expected <= high, "{low} {expected} {high}");
                     prop_assert!(high - low < 1e-12, "{low} {high}");
                 }

@@ -24,6 +24,7 @@
 mod answer;
 mod bounded;
 mod component;
+mod contenders;
 mod delay;
 mod evidence;
 mod exact;

@@ -20,6 +20,8 @@ pub struct SolverOptions<'a> {
     pub progress: Option<&'a (dyn Fn(u64, f64) + Sync)>,
     /// Whether a policy is wanted.
     pub policy: bool,
+    /// Bounded queries: whether bounds from above are wanted; without them, they are 1.
+    pub upper: bool,
     /// Bounded queries: of how many earlier numbers of steps the lower bounds are wanted too.
     pub history: usize,
     /// Whether what a certificate needs is wanted, which includes the policy.
@@ -38,6 +40,7 @@ impl Default for SolverOptions<'_> {
             interrupt: None,
             progress: None,
             policy: false,
+            upper: true,
             history: 0,
             evidence: false,
             // About a second.

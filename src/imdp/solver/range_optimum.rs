@@ -67,6 +67,39 @@ impl RangeOptimum {
         }
     }
 
+    /// Per row, the least of some numbers that stand for ranges which contain it, 1 if there is none: what the table says is
+    /// lost, but for the row values.
+    pub(super) fn least_around<'r>(&mut self, ranges: impl Iterator<Item = (&'r [RowRange], f64)>) -> Vec<f64> {
+        let mut least = vec![1.0f64; self.levels[0].len()];
+        self.levels[1..].iter_mut().for_each(|level| level.fill(1.0));
+        let lower = |place: &mut f64, number: f64| *place = if number < *place { number } else { *place };
+        for (ranges, number) in ranges {
+            for range in ranges {
+                let level = range.len().ilog2() as usize;
+                let (first, end) = (range.first.index(), range.last.index() + 1);
+                match self.levels.get_mut(level).filter(|_| level > 0) {
+                    Some(table) => {
+                        lower(&mut table[first], number);
+                        lower(&mut table[end - (1 << level)], number);
+                    }
+                    None => least[first..end].iter_mut().for_each(|place| lower(place, number)),
+                }
+            }
+        }
+        // What holds for so many neighbours holds for both halves of them.
+        for level in (1..self.levels.len()).rev() {
+            let half = 1 << (level - 1);
+            let (below, above) = self.levels.split_at_mut(level);
+            let (below, above) = (below.get_mut(level - 1).filter(|_| level > 1), &above[0]);
+            let below = below.unwrap_or(&mut least);
+            for (i, &number) in above.iter().enumerate().take(below.len() - half.min(below.len())) {
+                lower(&mut below[i], number);
+                lower(&mut below[i + half], number);
+            }
+        }
+        least
+    }
+
     /// The optimum over several ranges.
     pub(super) fn best(&self, ranges: &[RowRange]) -> f64 {
         match self.optimum {

@@ -56,18 +56,29 @@ impl<'a> Sweep<'a> {
 
     /// Evaluates the rows at `values` into the table.
     pub(super) fn evaluate_rows(&mut self, values: &[f64], side: Bound, table: &mut RangeOptimum) {
-        let (all, nature) = (self.model.rows(), self.players.nature);
-        let weights = table.values_mut();
-        let mut put = |block: &RowBlock, results: Vec<f64>| {
-            block.rows.iter().zip(results).for_each(|(&row, w)| weights[row.index()] = w);
+        self.evaluate_some_rows(values, side, table, |_| true);
+    }
+
+    /// Evaluates those rows that are `wanted`; the others keep what the table says.
+    pub(super) fn evaluate_some_rows(
+        &mut self,
+        values: &[f64],
+        side: Bound,
+        table: &mut RangeOptimum,
+        wanted: impl Fn(RowId) -> bool + Sync,
+    ) {
+        let (all, way) = (self.model.rows(), (self.players.nature, side));
+        let results: Vec<Vec<f64>> = {
+            let known = |row: RowId| (!wanted(row)).then(|| table.values()[row.index()]);
+            let evaluate = |block: &mut RowBlock| block.evaluate(all, values, way, known);
+            match &mut self.blocks[..] {
+                [block] => vec![evaluate(block)],
+                blocks => blocks.par_iter_mut().map(evaluate).collect(),
+            }
         };
-        if let [block] = &mut self.blocks[..] {
-            let results = block.evaluate(all, values, nature, side);
-            put(block, results);
-        } else {
-            let evaluate = |block: &mut RowBlock| block.evaluate(all, values, nature, side);
-            let results: Vec<Vec<f64>> = self.blocks.par_iter_mut().map(evaluate).collect();
-            self.blocks.iter().zip(results).for_each(|(block, results)| put(block, results));
+        let weights = table.values_mut();
+        for (block, results) in self.blocks.iter().zip(results) {
+            block.rows.iter().zip(results).for_each(|(&row, w)| weights[row.index()] = w);
         }
         table.rebuild();
     }

@@ -57,18 +57,22 @@ impl Threshold {
                 break sums;
             }
             *(if is_late { &mut too_late } else { &mut too_early }) = Some(guess);
-            open.clear();
-            open.extend(values.iter().copied().filter(|&value| {
-                too_early.is_none_or(|bound| before(bound, value))
-                    && too_late.is_none_or(|bound| before(value, bound))
-            }));
-            let nearest = |a: f64, b: f64| if before(a, b) == is_late { b } else { a };
-            guess = match open.len() {
-                // All room is too little.
-                0 => break sums,
-                _ if round < NEIGHBOURS => open.iter().copied().fold(open[0], nearest),
-                number => *open.select_nth_unstable_by(number / 2, f64::total_cmp).1,
+            let next = if round < NEIGHBOURS {
+                nearest(values, guess, |a, b| if is_late { before(b, a) } else { before(a, b) })
+            } else {
+                open.clear();
+                open.extend(values.iter().copied().filter(|&value| {
+                    too_early.is_none_or(|bound| before(bound, value))
+                        && too_late.is_none_or(|bound| before(value, bound))
+                }));
+                let middle = open.len() / 2;
+                (!open.is_empty()).then(|| *open.select_nth_unstable_by(middle, f64::total_cmp).1)
             };
+            match next {
+                Some(next) => guess = next,
+                // All room is too little.
+                None => break sums,
+            }
             round += 1;
         };
         if guess != first_guess
@@ -82,24 +86,39 @@ impl Threshold {
     }
 }
 
+/// The value that is next after `from`; `precedes(a, b)` says that `a` comes before `b` on the way.
+fn nearest(values: &[f64], from: f64, precedes: impl Fn(f64, f64) -> bool) -> Option<f64> {
+    let mut next: Option<f64> = None;
+    for &value in values {
+        if precedes(from, value) && next.is_none_or(|next| precedes(value, next)) {
+            next = Some(value);
+        }
+    }
+    next
+}
+
 impl Before {
     fn new(row: Row<'_>, values: &[f64], threshold: f64, before: impl Fn(f64, f64) -> bool) -> Self {
+        // Arrays that stay in registers, which a closure over them would not.
         let (mut room, mut room_with, mut share) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        let mut add = |lane: usize, value: f64, lower: f64, upper: f64| {
+        let (values, lower, upper) =
+            (values.as_chunks::<LANES>(), row.lower.as_chunks::<LANES>(), row.upper.as_chunks::<LANES>());
+        for ((values, lower), upper) in values.0.iter().zip(lower.0).zip(upper.0) {
+            for lane in 0..LANES {
+                let (value, own) = (values[lane], upper[lane] - lower[lane]);
+                let inside = if before(value, threshold) { own } else { 0.0 };
+                room[lane] += inside;
+                share[lane] += inside * value;
+                room_with[lane] += if before(threshold, value) { 0.0 } else { own };
+            }
+        }
+        let rest = values.1.iter().zip(lower.1).zip(upper.1).enumerate();
+        for (lane, ((&value, &lower), &upper)) in rest {
             let own = upper - lower;
             let inside = if before(value, threshold) { own } else { 0.0 };
             room[lane] += inside;
             share[lane] += inside * value;
             room_with[lane] += if before(threshold, value) { 0.0 } else { own };
-        };
-        let (values, lower, upper) =
-            (values.chunks_exact(LANES), row.lower.chunks_exact(LANES), row.upper.chunks_exact(LANES));
-        let rest = values.remainder().iter().zip(lower.remainder()).zip(upper.remainder());
-        rest.enumerate().for_each(|(lane, ((&value, &lower), &upper))| add(lane, value, lower, upper));
-        for ((value, lower), upper) in values.zip(lower).zip(upper) {
-            for lane in 0..LANES {
-                add(lane, value[lane], lower[lane], upper[lane]);
-            }
         }
         let sum = |lanes: [f64; LANES]| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
         Self { room: sum(room), room_with: sum(room_with), share: sum(share) }

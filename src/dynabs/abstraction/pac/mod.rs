@@ -152,13 +152,13 @@ impl<'a> PacRows<'a> {
             let entries = targets.len() as u64 * landings.row_length(grid) as u64;
             need_of_rows(problem, entries).check()?;
         }
-        let ground = Ground::new(grid, landings.shared().map(|_| targets), |cell| match outcomes.of(cell) {
+        let ground = Ground::new(grid, landings.shared().map(|_| targets), states.heads(), |cell| match outcomes.of(cell) {
             Outcome::Lost => FAILED,
             Outcome::Reached => REACHED,
             Outcome::Open => states.of_cell(cell),
         });
         let lost_cells = BoxCount::new(&ground, |state| state == FAILED);
-        let goal_cells = BoxCount::new(&ground, |state| state == REACHED);
+        let goal_cells = BoxCount::new(&ground, |state| state != FAILED && !ground.lists(state));
         let regions = regions(&landings, targets, problem, &ground, [&lost_cells, &goal_cells]);
         let size = prepared.sample_size(samples.len() as u64);
         let cell_events = cell_events(&landings, targets, problem);

@@ -11,25 +11,26 @@ pub(in super::super) struct Ground {
     /// Per dimension, the number of cells.
     pub(in super::super) cells: Vec<i32>,
     strides: Vec<i64>,
-    /// The state that landing in a cell leads to. Those up to [`Ground::LAST_MERGED`] are not listed cell by cell.
+    /// The state that landing in a cell leads to.
     pub(in super::super) states: Vec<StateId>,
+    heads: StateId,
     /// Per dimension, the cell of each coordinate of the targets; nothing where origins are those of the grid.
-    targets: Vec<Vec<i32>>,
+    pub(super) targets: Vec<Vec<i32>>,
     /// Where targets that stand there again stand, after all others.
-    again: Vec<u32>,
+    pub(super) again: Vec<u32>,
 }
 
 impl Ground {
-    /// States that stand for several cells, or for what is not listed at all.
-    pub(in super::super) const LAST_MERGED: StateId = StateId(1);
-
-    /// The cells of a grid, with targets that coordinates count from if all sit alike in theirs.
+    /// The cells of a grid, with targets that coordinates count from if all sit alike in theirs; the first `heads` states
+    /// stand for several cells, or for what is not listed at all.
     pub(in super::super) fn new(
         grid: &Grid,
         shared: Option<&Targets>,
+        heads: u32,
         state: impl Fn(CellId) -> StateId,
     ) -> Self {
         Self {
+            heads: StateId(heads),
             cells: grid.axes().iter().map(|axis| axis.cells() as i32).collect(),
             strides: grid.strides().iter().map(|&stride| stride.into()).collect(),
             states: (0..grid.num_cells()).map(|cell| state(CellId(cell))).collect(),
@@ -38,6 +39,11 @@ impl Ground {
                 (targets.num_originals()..targets.len()).map(|t| targets.original(t) as u32).collect()
             }),
         }
+    }
+
+    /// Whether rows list a state cell by cell.
+    pub(in super::super) fn lists(&self, state: StateId) -> bool {
+        state >= self.heads
     }
 
     /// Writes where the coordinates of an action's row count from into `origin`.

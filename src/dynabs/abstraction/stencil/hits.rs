@@ -47,7 +47,7 @@ impl Hits {
             counts.lost.add(&self.before[position], true, true);
             counts.lost.subtract(&self.before[position + length]);
             for (&state, count) in ground.states[first..first + length].iter().zip(&self.counts[position..]) {
-                if state <= Ground::LAST_MERGED {
+                if !ground.lists(state) {
                     let own = if state == StateId(0) { &mut counts.lost } else { &mut counts.goal };
                     own.add(count, true, true);
                 }
@@ -58,9 +58,9 @@ impl Hits {
             cells.for_each(|cell| {
                 all += 1;
                 match ground.state(cell, origin) {
-                    Some(StateId(1)) => goal += 1,
-                    Some(state) if state > Ground::LAST_MERGED => {}
-                    _ => lost += 1,
+                    Some(state) if ground.lists(state) => {}
+                    None | Some(StateId(0)) => lost += 1,
+                    Some(_) => goal += 1,
                 }
             });
             counts.goal.add(count, goal == all, goal > 0);

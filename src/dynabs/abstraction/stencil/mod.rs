@@ -7,6 +7,7 @@
 mod box_count;
 mod ground;
 mod hits;
+mod reach;
 mod rows;
 mod runs;
 
@@ -84,7 +85,7 @@ impl Stencil {
             for (&state, (&low, &high)) in states.iter().zip(bounds) {
                 // What is not listed is overwritten by what comes next.
                 (successors[end], lower[end], upper[end]) = (state, low, high);
-                end += usize::from(state > Ground::LAST_MERGED);
+                end += usize::from(ground.lists(state));
             }
         });
         Row { successors: &successors[..end], lower: &lower[..end], upper: &upper[..end], exact: &[] }

@@ -1,5 +1,6 @@
 //! The rows of a model, as stencils.
 
+use super::reach::Reach;
 use super::{Ground, Special, Stencil};
 use imdp::model::{ComputedRows, Row, RowBuffer, RowId, RowSet};
 use rayon::prelude::*;
@@ -25,6 +26,7 @@ pub(in super::super) struct StencilRows {
     /// Per row, how many entries it has.
     lengths: Vec<u32>,
     entries: usize,
+    reach: Reach,
 }
 
 /// What is kept of a row.
@@ -46,6 +48,7 @@ impl StencilRows {
         choose: impl Fn(&mut T, usize) -> Chosen + Sync,
     ) -> Self {
         let mut rows = Self {
+            reach: Reach::new(&ground, &stencils),
             ground,
             stencils,
             shapes: Vec::with_capacity(count),
@@ -113,5 +116,9 @@ impl ComputedRows for StencilRows {
         } else {
             stencil.row(&self.ground, coordinates, special, entries)
         }
+    }
+
+    fn most_of_successors(&self, of_states: &[f64]) -> Vec<f64> {
+        self.reach.most(&self.ground, of_states)
     }
 }

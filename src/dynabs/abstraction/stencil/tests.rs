@@ -9,13 +9,13 @@ use proptest::prelude::*;
 
 const CELLS: [u32; 3] = [3, 4, 5];
 
-fn ground(kinds: &[u32]) -> Ground {
+fn ground(kinds: &[u32], heads: u32) -> Ground {
     let exact = |x: f64| vec![from_decimal(x).unwrap(); 3];
     let grid = Grid::new(&exact(0.0), &exact(1.0), &CELLS).unwrap();
-    // Every fifth kind is lost, and every fifth a goal cell.
-    let state =
-        |cell: CellId| StateId(if kinds[cell.index()] < 2 { kinds[cell.index()] } else { cell.0 + 2 });
-    Ground::new(&grid, None, state)
+    // Every fifth kind is lost, and every fifth a goal cell if there are any.
+    let kind = |cell: CellId| kinds[cell.index()];
+    let state = |cell: CellId| StateId(if kind(cell) < heads { kind(cell) } else { cell.0 + heads });
+    Ground::new(&grid, None, heads, state)
 }
 
 /// The cells of a box at `origin` with their row-major positions, and their numbers if they are in the grid.
@@ -38,8 +38,9 @@ proptest! {
         origin in prop::array::uniform3(0i32..5),
         holes in prop::collection::vec(prop::bool::weighted(0.3), 64),
         meets_goal in prop::bool::ANY,
+        heads in 1u32..=2,
     ) {
-        let ground = ground(&kinds);
+        let ground = ground(&kinds, heads);
         let upper = (0..3).map(|j| corner[j] + extent[j]).collect();
         let hull = CellBox { lower: corner.to_vec(), upper };
         let interval = |position: usize| (position as f64, position as f64 + 0.5);
@@ -50,7 +51,7 @@ proptest! {
         let in_grid = || cells(&hull, &origin).into_iter().filter_map(|(p, cell)| Some((p, cell?)));
         let mut expected = vec![(StateId(0), (0.0, 0.5))];
         expected.extend(special.reached.map(|bounds| (StateId(1), bounds)));
-        let listed_cells = in_grid().filter(|&(p, cell)| listed(p) && ground.states[cell] > StateId(1));
+        let listed_cells = in_grid().filter(|&(p, cell)| listed(p) && ground.states[cell] >= StateId(heads));
         expected.extend(listed_cells.map(|(p, cell)| (ground.states[cell], interval(p))));
         let mut entries = RowEntries::default();
         let row = stencil.row(&ground, &origin, special, &mut entries);

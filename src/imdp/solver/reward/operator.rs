@@ -111,7 +111,7 @@ impl Operator {
             }));
             all = &extended;
         }
-        let weights = self.block.evaluate(&self.rows, all, self.players.nature, side);
+        let weights = self.block.evaluate(&self.rows, all, (self.players.nature, side), |_| None);
         let maximises = self.players.policy == Direction::Max;
         let (mut results, mut chosen) = (vec![], vec![]);
         for choices in &self.choices {
