@@ -22,7 +22,7 @@ import tempfile
 from fractions import Fraction
 from pathlib import Path
 
-from crosscheck.engines import find
+from crosscheck.dynabs import find
 
 KINDS = ("maxmin", "maxmax", "minmin", "minmax")
 TOLERANCE = 1e-6

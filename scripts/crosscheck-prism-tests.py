@@ -18,7 +18,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from crosscheck.engines import Dynabs, Failure, find
+from crosscheck.dynabs import Dynabs, Failure, find
 
 TOLERANCE = 1e-5
 FUNCTIONS = {"min": min, "max": max, "true": True, "false": False, "__builtins__": {}}
@@ -118,7 +118,7 @@ def main():
                         spelled = re.sub(r"(\w+)/(\d+)<0\.1", r"10*\1<\2", spelled)
                         at = f"{model.name} {' '.join(constants)}: {text}"
                         try:
-                            [result] = Dynabs(dynabs).results(stem, [spelled], 1e-7)
+                            [result] = Dynabs(dynabs).results(stem.with_suffix(".tra"), [spelled], 1e-7)
                         except Failure as failure:
                             unsupported.setdefault(str(failure).split("error: ")[-1].split("column")[-1].lstrip(" 0123456789:")[:90], []).append(at)
                             continue

@@ -201,9 +201,8 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
         phases.push(("files", writing.elapsed()));
     }
     for result in &mut results {
-        let (guarantee, bounds) =
-            (&abstraction.guarantee, [result.lower.unwrap_or(0.0), result.upper.unwrap_or(1.0)]);
-        let claim = guarantee.claim(&abstraction.property, &abstraction.model, bounds);
+        let claim =
+            abstraction.guarantee.claim(&abstraction.property, &abstraction.model, result.bounds());
         result.guarantee = Some(claim.map_err(|error| CliError::Failure(error.to_string()))?);
     }
     report(arguments, &manifest, &abstraction.footprint, &phases, &results)?;

@@ -66,7 +66,7 @@ fn summary(certificate: &Certificate, outcome: &Result<Proved, Rejection>, time:
         Ok(proved) => format!(
             "{property}\n  accepted   {}value in [{:?}, {:?}] at the initial state   {} states, steps: {}, rows: {}, \
              {time:.1?}\n",
-            proved.verdict.map_or_else(String::new, |verdict| format!("{}   ", word(verdict))),
+            proved.verdict.map_or_else(String::new, |verdict| format!("{verdict}   ")),
             proved.lower,
             proved.upper,
             thousands(proved.states),
@@ -91,19 +91,11 @@ fn report(
             "accepted": true,
             "lower": proved.lower,
             "upper": proved.upper,
-            "verdict": proved.verdict.map(word),
+            "verdict": proved.verdict.map(|verdict| verdict.to_string()),
             "states": proved.states,
             "steps": proved.steps,
             "rows": proved.rows,
             "seconds": time.as_secs_f64(),
         }),
-    }
-}
-
-fn word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Holds => "true",
-        Verdict::Fails => "false",
-        Verdict::Unknown => "undecided",
     }
 }

@@ -1,5 +1,6 @@
 //! Why two sides cannot be compared.
 
+use crate::evaluation::EvaluationError;
 use crate::files::is_fault_of_input;
 use crate::formats::ImportError;
 use crate::property::{ParseError, PropertyError};
@@ -62,6 +63,14 @@ pub enum CompareError {
         property: String,
         /// Why.
         error: SolveError,
+    },
+    /// An expression cannot be evaluated.
+    #[error("{property}: {error}")]
+    Expression {
+        /// The expression.
+        property: String,
+        /// Why.
+        error: EvaluationError,
     },
     /// A policy takes an action that its model does not have.
     #[error("{side}: the policy takes \"{action}\" in state {state}; expected a choice of that state")]
