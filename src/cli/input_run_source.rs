@@ -1,7 +1,6 @@
 //! A run whose actions are inputs, opened and solved.
 
 use super::{Bars, CliError};
-use dynabs::controller::InputController;
 use dynabs::landing::LandingSolution;
 use dynabs::run::InputRun;
 use imdp::progress::Progress;
@@ -31,10 +30,5 @@ impl SolvedInputs {
             return Err(CliError::Interrupted);
         }
         Ok(Self { run, solution })
-    }
-
-    /// The controller.
-    pub(super) fn controller(&self) -> InputController {
-        InputController::new(&self.run.problem, &self.run.abstraction, &self.solution)
     }
 }

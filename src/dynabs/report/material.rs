@@ -142,10 +142,10 @@ impl<'a> Material<'a> {
 
     /// The mean of the state after the action of `cell` at `step`; `None` if there is none.
     pub(super) fn mean_successor(&self, cell: CellId, step: usize) -> Option<Vec<f64>> {
-        let Decision::Steer { target } = self.controller.decide_in(cell, step as u64) else {
+        let Decision::Act { action } = self.controller.decide_in(cell, step as u64) else {
             return None;
         };
-        let point = self.controller.target_point(target);
+        let point = self.controller.action(action);
         Some(point.iter().zip(&self.noise_mean).map(|(d, mean)| d + mean).collect())
     }
 }
