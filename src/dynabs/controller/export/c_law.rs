@@ -1,6 +1,6 @@
 //! The tables of a law, for C.
 
-use super::c_source::{double, filled, list, rows};
+use super::c_text::{double, filled, list, rows};
 use crate::controller::Controller;
 use crate::controller::law::{CenteredLaw, Law, SteeringLaw};
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! The tables of a task's memory, for C.
 
-use super::c_source::{double, filled, list, rows};
+use super::c_text::{double, filled, list, rows};
 use crate::controller::Controller;
 use crate::partition::CellId;
 use crate::task::{HalfSpace, Standing};

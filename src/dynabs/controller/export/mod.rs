@@ -3,6 +3,7 @@
 mod c_law;
 mod c_memory;
 mod c_source;
+mod c_text;
 mod csv;
 mod input_json;
 mod json;
