@@ -4,7 +4,8 @@
 use crate::common::{abstraction, reference_mode};
 use dynabs::abstraction::Abstraction;
 use imdp::engines::{
-    Agreement, CrossCheckOptions, Engine, Finding, Handed, Prism, RunLimits, Storm, Subject, cross_check, raised,
+    Agreement, CrossCheckOptions, Engine, Finding, Handed, Prism, RunLimits, Storm, Subject, cross_check,
+    raised,
 };
 use imdp::model::IntervalMdp;
 use imdp::property::{Inquiry, PathFormula, Property, Resolution};

@@ -201,8 +201,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
         phases.push(("files", writing.elapsed()));
     }
     for result in &mut results {
-        let claim =
-            abstraction.guarantee.claim(&abstraction.property, &abstraction.model, result.bounds());
+        let claim = abstraction.guarantee.claim(&abstraction.property, &abstraction.model, result.bounds());
         result.guarantee = Some(claim.map_err(|error| CliError::Failure(error.to_string()))?);
     }
     report(arguments, &manifest, &abstraction.footprint, &phases, &results)?;

@@ -2,8 +2,8 @@
 
 use super::judge::{Judgement, hull, judge, tolerance};
 use super::{
-    Agreement, Engine, EngineAnswer, EngineQuestion, Finding, QuestionKind, Reply, RunLimits, StrategyFinding,
-    Subject,
+    Agreement, Engine, EngineAnswer, EngineQuestion, Finding, QuestionKind, Reply, RunLimits,
+    StrategyFinding, Subject,
 };
 use crate::compare::backup::Backup;
 use crate::compare::record::answer_within;

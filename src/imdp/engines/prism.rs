@@ -119,10 +119,7 @@ impl Engine for Prism {
 }
 
 /// A directory with the model's files under names that need no quoting, and what `-importmodel` calls them.
-fn stage(
-    subject: &Subject<'_>,
-    with_rewards: bool,
-) -> Result<(StagedDirectory, String), StagingFailure> {
+fn stage(subject: &Subject<'_>, with_rewards: bool) -> Result<(StagedDirectory, String), StagingFailure> {
     let explicit = |tra: &Path| match with_rewards {
         true => ExplicitFiles::beside(tra).all(),
         false => ["tra", "sta", "lab"].map(|extension| tra.with_extension(extension)).to_vec(),

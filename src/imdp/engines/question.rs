@@ -91,7 +91,10 @@ impl EngineQuestion {
             (ModelKind::Idtmc, Resolution::Pmaxmax | Resolution::Pminmax) => Optimum::Max,
         };
         let value = Property { name: None, question: Question::Value(optimum), path: objective.path };
-        Ok(Self { property: property.to_string(), kind: QuestionKind::Event { value: Box::new(value), query } })
+        Ok(Self {
+            property: property.to_string(),
+            kind: QuestionKind::Event { value: Box::new(value), query },
+        })
     }
 
     /// What an expression asks.

@@ -68,9 +68,18 @@ mod tests {
 
     #[test]
     fn only_probabilities_of_all_states_are_values() {
-        assert_eq!(parse_values("0.5\n1.0000000000000013\n", 2, Range::Probability).unwrap(), [0.5, 1.0000000000000013]);
-        assert!(matches!(parse_values("0.5\n", 2, Range::Probability), Err(EngineFailure::Length { found: 1, expected: 2 })));
-        assert!(matches!(parse_values("0.5\nx\n", 2, Range::Probability), Err(EngineFailure::NotANumber { line: 2, .. })));
+        assert_eq!(
+            parse_values("0.5\n1.0000000000000013\n", 2, Range::Probability).unwrap(),
+            [0.5, 1.0000000000000013]
+        );
+        assert!(matches!(
+            parse_values("0.5\n", 2, Range::Probability),
+            Err(EngineFailure::Length { found: 1, expected: 2 })
+        ));
+        assert!(matches!(
+            parse_values("0.5\nx\n", 2, Range::Probability),
+            Err(EngineFailure::NotANumber { line: 2, .. })
+        ));
         for value in ["NaN", "Infinity", "-inf", "1.1", "-0.1"] {
             let refused = parse_values(&format!("0.5\n{value}\n"), 2, Range::Probability);
             assert!(refused.is_err(), "{value}");

@@ -68,7 +68,10 @@ pub(crate) mod pair {
 pub(crate) mod option_pair {
     use super::*;
 
-    pub(crate) fn serialize<S: Serializer>(pair: &Option<[f64; 2]>, serializer: S) -> Result<S::Ok, S::Error> {
+    pub(crate) fn serialize<S: Serializer>(
+        pair: &Option<[f64; 2]>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
         pair.map(|pair| pair.map(Number)).serialize(serializer)
     }
 

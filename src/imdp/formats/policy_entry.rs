@@ -24,8 +24,7 @@ impl<'a> PolicyEntry<'a> {
     pub fn read(text: &'a str) -> impl Iterator<Item = (usize, Result<Self, LineError>)> {
         let lines = (1..).zip(text.lines().map(str::trim)).filter(|(_, found)| !found.is_empty());
         lines.map(|(line, found)| {
-            let refused =
-                || LineError { line, found: found.to_owned(), expected: PolicyEntry::EXPECTED };
+            let refused = || LineError { line, found: found.to_owned(), expected: PolicyEntry::EXPECTED };
             (line, Self::of_line(found).ok_or_else(refused))
         })
     }
@@ -66,7 +65,8 @@ mod tests {
     #[test]
     fn other_lines_are_refused() {
         for text in ["3", "x=b", "1,x=a", "1=", "=a", "1,2,3=a"] {
-            let (line, entry) = PolicyEntry::read(&format!("\n0=a\n{text}\n")).last().map(|(l, e)| (l, e.is_err())).unwrap();
+            let (line, entry) =
+                PolicyEntry::read(&format!("\n0=a\n{text}\n")).last().map(|(l, e)| (l, e.is_err())).unwrap();
             assert_eq!((line, entry), (3, true), "{text}");
         }
     }
