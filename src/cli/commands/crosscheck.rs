@@ -110,9 +110,9 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     let failure = |error| CliError::Failure(format!("{}: {error}", arguments.path.display()));
     let raised = raised(&loaded.model).map_err(failure)?;
     // Files that only we read are written again for the engines.
-    let as_is = check_names(&loaded.model).is_ok() && !loaded.has_own_layout;
-    let files = explicit_files(&arguments.path, raised.is_some()).filter(|_| as_is);
-    let handed = match (as_is(arguments)?, &files) {
+    let readable = check_names(&loaded.model).is_ok() && !loaded.has_own_layout;
+    let files = explicit_files(&arguments.path, raised.is_some()).filter(|_| readable);
+    let handed = match (handed_as_is(arguments)?, &files) {
         (Some(format), _) => Handed::AsIs(&arguments.path, format),
         (None, Some(tra)) => Handed::Explicit(tra),
         (None, None) => Handed::Copy,
@@ -151,7 +151,7 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
 }
 
 /// The format of the file that engines are handed as it is, if they are.
-fn as_is(arguments: &CrosscheckArguments) -> Result<Option<Format>, CliError> {
+fn handed_as_is(arguments: &CrosscheckArguments) -> Result<Option<Format>, CliError> {
     let path = &arguments.path;
     match Format::of_path(path) {
         _ if !arguments.as_is => Ok(None),

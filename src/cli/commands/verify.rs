@@ -5,7 +5,6 @@ use crate::{Bars, CliError, print, thousands};
 use clap::Args;
 use imdp::certificate::{Certificate, CertificateError, read_file};
 use imdp::files::is_fault_of_input;
-use imdp::property::Verdict;
 use imdp::verify::{Proved, Rejection, check};
 use serde_json::json;
 use std::path::PathBuf;
