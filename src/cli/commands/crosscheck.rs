@@ -218,7 +218,9 @@ fn find_engines(arguments: &CrosscheckArguments) -> Result<Engines, CliError> {
         _ => arguments.python.is_some(),
     };
     if found.is_empty() || missing.iter().any(|missing| given(missing.engine)) {
-        let texts: Vec<_> = missing.iter().map(ToString::to_string).collect();
+        let option = |engine| if engine == "PRISM" { "--prism" } else { "--python" };
+        let text = |missing: &EngineMissing| format!("{missing}\n  Name it by {} PATH.", option(missing.engine));
+        let texts: Vec<_> = missing.iter().map(text).collect();
         return Err(CliError::Input(texts.join("\nerror: ")));
     }
     Ok(Engines { found, missing })

@@ -66,7 +66,7 @@ impl Document {
     pub fn set(&mut self, argument: &SetArgument) -> Result<(), Diagnostic> {
         let pointer = &argument.pointer;
         let error = |found: String, expected: &str| {
-            Diagnostic::at(pointer, found, expected).in_file(&format!("{} with --set", self.name))
+            Diagnostic::at(pointer, found, expected).in_file(&format!("{}, to be changed", self.name))
         };
         let (parent, key) = pointer.rsplit_once('/').unwrap_or_default();
         let key = key.replace("~1", "/").replace("~0", "~");
@@ -247,7 +247,7 @@ mod tests {
         }
         for argument in ["/missing/key=1", "/list/7=1", "/task/horizon/deep=1"] {
             let error = document.set(&argument.parse().unwrap()).unwrap_err().to_string();
-            assert!(error.contains("--set"), "{error}");
+            assert!(error.contains(", to be changed"), "{error}");
         }
         assert!("task=1".parse::<SetArgument>().is_err() && "/task".parse::<SetArgument>().is_err());
     }

@@ -21,7 +21,7 @@ pub enum CrossCheckError {
         error: io::Error,
     },
     /// The file is something else.
-    #[error("{path}: found something else ({error}); expected what `dynabs-check crosscheck --json` prints\n  Write it again or remove the file.", path = path.display())]
+    #[error("{path}: found something else ({error}); expected the findings of a cross-check in JSON\n  Write it again or remove the file.", path = path.display())]
     Malformed {
         /// The file.
         path: PathBuf,

@@ -102,7 +102,7 @@ fn read_properties(path: &Path) -> Result<Vec<Property>, CompareError> {
 }
 
 fn open_json(path: &Path) -> Result<Record, CompareError> {
-    const EXPECTED: &str = "results of `dynabs-check solve --json` or a reference file";
+    const EXPECTED: &str = "results in JSON or a reference file";
     let text = read(path)?;
     let value: Value = parse(path, &text, EXPECTED)?;
     if !Reference::is_one(&value) {

@@ -37,15 +37,15 @@ impl Prism {
     pub fn find(given: Option<&Path>) -> Result<Self, EngineMissing> {
         let environment = std::env::var_os("PRISM").filter(|value| !value.is_empty()).map(PathBuf::from);
         let (name, origin) = match (given, &environment) {
-            (Some(given), _) => (given, "--prism "),
+            (Some(given), _) => (given, ""),
             (None, Some(variable)) => (variable.as_path(), "$PRISM, "),
             (None, None) => (Path::new("prism"), "PATH: "),
         };
         let missing = || EngineMissing {
             engine: "PRISM",
             found: format!("{origin}{} is no program", name.display()),
-            expected: "PRISM 4.8 or newer, by --prism PATH, $PRISM or PATH",
-            remedy: "Get it at https://www.prismmodelchecker.org/download.php (it needs Java); PATH is its bin/prism.",
+            expected: "PRISM 4.8 or newer: one that is given, $PRISM or prism in PATH",
+            remedy: "Get it at https://www.prismmodelchecker.org/download.php (it needs Java); the program is its bin/prism.",
         };
         find(name).map(|command| Self { command }).ok_or_else(missing)
     }

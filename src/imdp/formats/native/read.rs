@@ -1,14 +1,14 @@
 //! Reading a model back, trusting nothing.
 
-use std::io::{self, BufReader, Read};
+use std::io::{BufReader, Read};
 use std::path::Path;
 
 use super::sections::Sections;
 use super::{NativeError, Section};
 use crate::files;
 use crate::model::{
-    ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, Labels, MemoryError, ModelKind, Parts,
-    RowId, RowRange, Rows, StateId, StateSet, StateVariables, VariableValues, require_memory,
+    ActionNames, Choices, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowId, RowRange, Rows,
+    StateId, StateSet, StateVariables, VariableValues, require_memory,
 };
 
 /// Reads a model from a file that [`super::write_file`] has written.
