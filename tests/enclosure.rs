@@ -332,5 +332,5 @@ fn bounds_enclose_the_truth() {
     }
     assert!(promised > 200, "{promised} bounds that say something");
     assert!(caught.iter().all(|&caught| caught >= 5), "{caught:?}");
-    assert!(too_low > 50, "{too_low} upper bounds for the cells inside are too low for the regions");
+    assert!(too_low >= 20, "{too_low} upper bounds for the cells inside are too low for the regions");
 }
