@@ -219,7 +219,8 @@ fn find_engines(arguments: &CrosscheckArguments) -> Result<Engines, CliError> {
     };
     if found.is_empty() || missing.iter().any(|missing| given(missing.engine)) {
         let option = |engine| if engine == "PRISM" { "--prism" } else { "--python" };
-        let text = |missing: &EngineMissing| format!("{missing}\n  Name it by {} PATH.", option(missing.engine));
+        let text =
+            |missing: &EngineMissing| format!("{missing}\n  Name it by {} PATH.", option(missing.engine));
         let texts: Vec<_> = missing.iter().map(text).collect();
         return Err(CliError::Input(texts.join("\nerror: ")));
     }

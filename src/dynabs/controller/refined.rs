@@ -87,8 +87,13 @@ impl Controller {
         abstraction: &InputAbstraction,
         solution: &LandingSolution,
     ) -> Self {
-        let grid = problem.grid();
-        let pairs = problem.cell_task().memories() * grid.num_cells();
+        let (grid, task) = (problem.grid(), problem.cell_task());
+        let cells = grid.num_cells();
+        // Where the task is taken for lost nothing is decided.
+        let changes = |pair: u32| match task.kind(CellId(pair % cells)) {
+            CellKind::Unsafe => &[],
+            CellKind::Ordinary | CellKind::Goal => solution.policy.changes(StateId(pair)),
+        };
         let nominal = problem.inputs().iter().flatten().map(to_f64).collect();
         let inputs = problem.mode().num_inputs();
         let lower = &solution.values.lower;
@@ -97,11 +102,11 @@ impl Controller {
         Self {
             lookup: CellLookup::new(grid),
             periods: Periods::new(grid, problem.periodic()),
-            memory: MemoryUpdate::new(problem.cell_task(), problem.objective()),
+            memory: MemoryUpdate::new(task, problem.objective()),
             horizon: problem.horizon(),
             group_steps: 1,
             law: Law::Centered(CenteredLaw::new(nominal, inputs, problem.feedback().clone(), grid)),
-            schedule: Schedule::of_pairs((0..pairs).map(|pair| solution.policy.changes(StateId(pair)))),
+            schedule: Schedule::of_pairs((0..task.memories() * cells).map(changes)),
             bounds: lower.clone(),
             guarantee: Guarantee { event: Event::of_inputs(problem), evidence: abstraction.evidence.clone() },
             promised: Bound { initial_state: problem.initial_state().map(<[f64]>::to_vec), bound },

@@ -175,7 +175,9 @@ pub(super) fn provenance(run: &Run) -> String {
         .collect();
     let set = match manifest.set.is_empty() {
         true => String::new(),
-        false => format!("<p>Changed in the model file: <code>{}</code></p>\n", escape(&manifest.set.join(" "))),
+        false => {
+            format!("<p>Changed in the model file: <code>{}</code></p>\n", escape(&manifest.set.join(" ")))
+        }
     };
     set + &table("Files", &["file", "", "SHA-256"], &rows)
 }

@@ -15,9 +15,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum RunDirectoryError {
     /// The place is taken by something that is not ours.
-    #[error(
-        "{path}: {found}; expected a new or empty directory, or one that dynabs-compile wrote"
-    )]
+    #[error("{path}: {found}; expected a new or empty directory, or one that dynabs-compile wrote")]
     Foreign {
         /// The path.
         path: String,
@@ -25,9 +23,7 @@ pub enum RunDirectoryError {
         found: &'static str,
     },
     /// An earlier run is there.
-    #[error(
-        "{path}: found the output of an earlier run; expected a new or empty directory"
-    )]
+    #[error("{path}: found the output of an earlier run; expected a new or empty directory")]
     Exists {
         /// The path.
         path: String,
@@ -53,9 +49,7 @@ pub enum RunDirectoryError {
         free_mib: u64,
     },
     /// The model cannot be written in a format.
-    #[error(
-        "{0}"
-    )]
+    #[error("{0}")]
     Format(#[from] WriteError),
     /// The model or its property has no encoding with row states.
     #[error(transparent)]

@@ -37,9 +37,7 @@ pub enum EngineFailure {
         seconds: f64,
     },
     /// It took more memory than it was given, and was ended.
-    #[error(
-        "it used {used_mib} MiB of memory, more than the {given_mib} MiB given, and was ended"
-    )]
+    #[error("it used {used_mib} MiB of memory, more than the {given_mib} MiB given, and was ended")]
     Memory {
         /// What it used.
         used_mib: u64,

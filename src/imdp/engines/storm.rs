@@ -25,8 +25,7 @@ const SCRIPT: &str = include_str!("../templates/storm.py");
 const PRECISION: f64 = 1e-13;
 /// How long Python may take to tell whether it has stormpy.
 const PATIENCE: Duration = Duration::from_secs(60);
-const REMEDY: &str =
-    "Install it: python3 -m venv .venv && .venv/bin/pip install stormpy; the Python is then .venv/bin/python.";
+const REMEDY: &str = "Install it: python3 -m venv .venv && .venv/bin/pip install stormpy; the Python is then .venv/bin/python.";
 const EXPECTED: &str =
     "a Python that can import stormpy 2: one that is given, $DYNABS_PYTHON, that of $VIRTUAL_ENV or python3";
 
