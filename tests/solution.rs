@@ -4,7 +4,7 @@ use assert_cmd::Command;
 use dynabs::abstraction::compile;
 use dynabs::run::{Manifest, Run, WriteOptions, solution_options, write_run};
 use imdp::property::Property;
-use imdp::solution_file;
+use imdp::solution_file::{self, SolutionSubject};
 use imdp::solver::{Answer, Event, SolverOptions, solve};
 use std::fs;
 use std::path::Path;
@@ -81,10 +81,19 @@ fn damaged_solutions_are_refused() {
     let end = good.iter().position(|&byte| byte == b'\n').unwrap();
     let header: serde_json::Value = serde_json::from_slice(&good[..end]).unwrap();
     let sha256 = header["model"].as_str().unwrap();
-    assert!(solution_file::read(&good, property, model, sha256).is_ok());
+    let read = |bytes: &[u8], property: &Property, sha256: &str| {
+        let subject = SolutionSubject {
+            property: &property.to_string(),
+            sha256,
+            states: model.num_states(),
+            is_choice: &|state, choice| model.choices().row_of_choice(state, choice).is_some(),
+        };
+        solution_file::read(bytes, &subject)
+    };
+    assert!(read(&good, property, sha256).is_ok());
 
     let refused = |bytes: &[u8], property: &Property, sha256: &str, what: &str| {
-        let error = solution_file::read(bytes, property, model, sha256).unwrap_err().to_string();
+        let error = read(bytes, property, sha256).unwrap_err().to_string();
         assert!(error.contains(what), "{error}");
     };
     refused(&good, property, "0", "of the model");

@@ -6,7 +6,7 @@ use super::files::RunFiles;
 use crate::problem::Problem;
 use imdp::model::IntervalMdp;
 use imdp::property::Property;
-use imdp::solution_file;
+use imdp::solution_file::{self, SolutionSubject};
 use imdp::solver::{Solution, SolverOptions, Status};
 
 /// The most grouped steps for which values are kept.
@@ -37,6 +37,10 @@ pub(super) fn stored(
     let Some(sha256) = files.sha256(NATIVE_MODEL).filter(|_| files.sha256(SOLUTION).is_some()) else {
         return Ok(None);
     };
-    let solution = solution_file::read(&files.read(SOLUTION)?, property, model, sha256);
+    let property = property.to_string();
+    let is_choice = |state, choice| model.choices().row_of_choice(state, choice).is_some();
+    let subject =
+        SolutionSubject { property: &property, sha256, states: model.num_states(), is_choice: &is_choice };
+    let solution = solution_file::read(&files.read(SOLUTION)?, &subject);
     solution.map(Some).map_err(|error| OpenError::Solution { path: files.path(SOLUTION), error })
 }

@@ -77,7 +77,8 @@ pub fn write_run(
     if let Some(solution) = options.solution.filter(|solution| is_final(solution)) {
         let model = staging.files().iter().find(|file| file.name == NATIVE_MODEL);
         let sha256 = model.map_or_else(String::new, |file| file.sha256.clone());
-        staging.write(SOLUTION, |out| solution_file::write(&abstraction.property, &sha256, solution, out))?;
+        let property = abstraction.property.to_string();
+        staging.write(SOLUTION, |out| solution_file::write(&property, &sha256, solution, out))?;
     }
     staging.write("model.props", |out| writeln!(out, "{}", abstraction.property))?;
     let is_file = problem.noise().file().is_some();
