@@ -14,17 +14,25 @@ pub(super) struct SolvedInputs {
 }
 
 impl SolvedInputs {
-    /// Opens a run and solves its task: the same every time.
+    /// Opens a run and solves its task as these options say; without any, unless the run holds the solution.
     ///
     /// # Errors
     /// [`CliError`] if the directory is no run, or if it was interrupted.
-    pub(super) fn open(directory: &Path, options: &SolverOptions<'_>, bars: &Bars) -> Result<Self, CliError> {
+    pub(super) fn open(
+        directory: &Path,
+        given: Option<&SolverOptions<'_>>,
+        bars: &Bars,
+    ) -> Result<Self, CliError> {
         let run = InputRun::open(directory)?;
         let progress =
             |step, change: f64| bars.note(|| format!("step {step}, values change by {change:.1e}"));
+        let options = given.copied().unwrap_or_default();
         let options =
-            SolverOptions { interrupt: Some(bars.interrupt()), progress: Some(&progress), ..*options };
-        let solution = run.solve(&options);
+            SolverOptions { interrupt: Some(bars.interrupt()), progress: Some(&progress), ..options };
+        let solution = match given {
+            Some(_) => run.solve(&options),
+            None => run.solution(&options),
+        };
         bars.finish();
         if solution.status == Status::Interrupted {
             return Err(CliError::Interrupted);

@@ -21,7 +21,7 @@ mod summary;
 mod threads;
 mod trajectories;
 
-pub use choices::{AnyFormatName, EncodingName, FormatName, NamesChoice};
+pub use choices::{EncodingName, NamesChoice};
 pub use error::{CliError, exit_with};
 pub use output::{print, print_json, thousands, warn};
 pub use progress::Bars;

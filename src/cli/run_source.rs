@@ -75,8 +75,7 @@ impl Controlled {
             return refine(directory, bars).map(|refined| Self::Targets(Box::new(refined)));
         }
         bars.catch_interrupts();
-        let options = SolverOptions { policy: true, ..SolverOptions::default() };
-        let SolvedInputs { run, solution } = SolvedInputs::open(directory, &options, bars)?;
+        let SolvedInputs { run, solution } = SolvedInputs::open(directory, None, bars)?;
         let controller = Controller::of_inputs(&run.problem, &run.abstraction, &solution);
         Ok(Self::Inputs(Box::new(SolvedInputs { run, solution }), Box::new(controller)))
     }

@@ -2,7 +2,7 @@
 
 use super::solve::LimitArguments;
 use crate::crosscheck_table::table;
-use crate::model_source::{LoadedModel, load};
+use crate::model_source::{LoadedModel, load, model_help};
 use crate::questions::QuestionArguments;
 use crate::{Bars, CliError, print, print_json, warn};
 use clap::{Args, ValueEnum};
@@ -25,7 +25,7 @@ use std::time::Duration;
 #[derive(Clone, Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct CrosscheckArguments {
-    /// A directory written by dynabs-compile, or a model of any format that dynabs-check solve reads.
+    #[arg(help = model_help())]
     path: PathBuf,
 
     /// The engine to ask.

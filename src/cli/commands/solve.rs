@@ -3,7 +3,7 @@
 use crate::exports::{write_cell_policy, write_cell_values, write_evaluated, write_policy, write_values};
 use crate::input_run_source::SolvedInputs;
 use crate::input_summary::InputResult;
-use crate::model_source::{LoadedModel, load};
+use crate::model_source::{LoadedModel, load, model_help};
 use crate::questions::{Asked, QuestionArguments};
 use crate::results::{PropertyResult, exit_code, table};
 use crate::{Bars, CliError, print, print_json, warn};
@@ -26,8 +26,7 @@ use std::time::{Duration, Instant};
 /// What to solve and how.
 #[derive(Clone, Debug, Args)]
 pub struct SolveArguments {
-    /// A directory written by dynabs-compile, or a model: .tra (with .sta, .lab, .srew, .trew beside it), `m.tra,sta,lab`,
-    /// .pexp, .drn, .umb, .dynabs, .txt of bmdp-tool, .nc of IntervalMDP.jl; compressed by gzip or xz or not.
+    #[arg(help = model_help())]
     path: PathBuf,
 
     #[command(flatten)]
@@ -45,7 +44,8 @@ pub struct SolveArguments {
     #[arg(long, value_name = "FILE")]
     policy: Option<PathBuf>,
 
-    /// Write what is needed to check the result again with `verify` (for one property).
+    /// Write what is needed to check the result again with `verify` (for one property). For a directory of actions "inputs"
+    /// it is the model of its files that is solved, not the lattice.
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
 
@@ -94,13 +94,19 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
 pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
     let start = Instant::now();
-    if InputRun::is_in(&arguments.path) && !arguments.explicit && arguments.questions.is_empty() {
+    let is_input_task =
+        InputRun::is_in(&arguments.path) && !arguments.explicit && arguments.questions.is_empty();
+    if is_input_task && arguments.certificate.is_none() {
         return solve_inputs(arguments, &bars);
     }
     let loaded = load(&arguments.path, arguments.explicit, &bars)?;
     let reading = start.elapsed();
-    let questions = arguments.questions.read(&loaded)?;
+    let mut questions = arguments.questions.read(&loaded)?;
     loaded.require_unchanged()?;
+    if is_input_task {
+        // A certificate is about the model of the directory: of its two bounds, the one that a controller guarantees.
+        questions.truncate(1);
+    }
     let outputs = [&arguments.values, &arguments.policy, &arguments.certificate];
     if outputs.into_iter().any(Option::is_some) && questions.len() != 1 {
         let found = questions.len();
@@ -206,12 +212,6 @@ fn write_evaluation(
 
 /// The task of a run whose actions are inputs, on the lattice itself.
 fn solve_inputs(arguments: &SolveArguments, bars: &Arc<Bars>) -> Result<ExitCode, CliError> {
-    if arguments.certificate.is_some() {
-        return Err(CliError::Input(format!(
-            "--certificate: found the directory {}; expected a model file\n  Compile with --format dynabs and give model.dynabs of that directory.",
-            arguments.path.display()
-        )));
-    }
     bars.catch_interrupts();
     let start = Instant::now();
     let options = SolverOptions {
@@ -220,7 +220,7 @@ fn solve_inputs(arguments: &SolveArguments, bars: &Arc<Bars>) -> Result<ExitCode
         time_limit: arguments.limits.time_limit.map(Duration::from_secs_f64),
         ..SolverOptions::default()
     };
-    let SolvedInputs { run, solution } = SolvedInputs::open(&arguments.path, &options, bars)?;
+    let SolvedInputs { run, solution } = SolvedInputs::open(&arguments.path, Some(&options), bars)?;
     let result = InputResult::new(&run.problem, &run.abstraction, &solution, start.elapsed());
     let result = result.with_exported(&run.problem, &run.abstraction, &options);
     let mut files = Outputs::default();

@@ -32,7 +32,8 @@ pub fn open(path: &Path) -> Result<Record, CompareError> {
             }
             Some("json") => open_json(path)?,
             _ => {
-                let expected = "a directory, or a file that ends in .tra, .drn, .umb, .dynabs or .json";
+                let endings = Format::endings(Format::all());
+                let expected = format!("a directory, or a file that ends in {endings}, or in .json");
                 return Err(CompareError::Unusable { path: name, found: "another file".into(), expected });
             }
         }
@@ -48,7 +49,7 @@ fn open_directory(directory: &Path) -> Result<Record, CompareError> {
     collect(directory)?.ok_or_else(|| CompareError::Unusable {
         path: directory.display().to_string(),
         found: "none of the files of a run".into(),
-        expected: FILES,
+        expected: FILES.to_owned(),
     })
 }
 
@@ -141,7 +142,7 @@ impl From<Reference> for Record {
 
 fn in_line(path: &Path, LineError { line, found, expected }: LineError) -> CompareError {
     let path = format!("{}:{line}", path.display());
-    CompareError::Unusable { path, found: format!("\"{found}\""), expected }
+    CompareError::Unusable { path, found: format!("\"{found}\""), expected: expected.to_owned() }
 }
 
 fn parse<T: serde::de::DeserializeOwned>(
@@ -153,7 +154,7 @@ fn parse<T: serde::de::DeserializeOwned>(
 }
 
 fn unusable(path: &Path, found: String, expected: &'static str) -> CompareError {
-    CompareError::Unusable { path: path.display().to_string(), found, expected }
+    CompareError::Unusable { path: path.display().to_string(), found, expected: expected.to_owned() }
 }
 
 fn read(path: &Path) -> Result<String, CompareError> {

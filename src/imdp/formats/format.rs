@@ -90,9 +90,9 @@ impl Format {
         self.extensions()[0]
     }
 
-    /// The extensions of the files of all formats, for messages: `.tra, .drn, … or .nc`.
-    pub fn endings() -> String {
-        let mut endings: Vec<_> = Self::all().map(|format| format!(".{}", format.extension())).collect();
+    /// The extensions of the files of formats, for messages: `.tra, .drn, … or .nc`.
+    pub fn endings(formats: impl Iterator<Item = Self>) -> String {
+        let mut endings: Vec<_> = formats.map(|format| format!(".{}", format.extension())).collect();
         let last = endings.pop().unwrap_or_default();
         format!("{} or {last}", endings.join(", "))
     }
