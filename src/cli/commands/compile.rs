@@ -2,9 +2,9 @@
 
 use super::compile_inputs;
 use super::solve::LimitArguments;
+use crate::choices::format_names;
 use crate::results::{PropertyResult, exit_code, table};
 use crate::summary::{memory, summary};
-use crate::choices::format_names;
 use crate::{Bars, CliError, EncodingName, print, use_threads, warn};
 use clap::Parser;
 use dynabs::abstraction::{Abstraction, Footprint, compile};

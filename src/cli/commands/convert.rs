@@ -1,7 +1,7 @@
 //! `dynabs-check convert`: from one format to another.
 
-use crate::model_source::{load, model_help};
 use crate::choices::format_names;
+use crate::model_source::{load, model_help};
 use crate::{Bars, CliError, EncodingName, NamesChoice, print, thousands, warn};
 use clap::Args;
 use imdp::files::{self, Outputs};

@@ -40,7 +40,9 @@ impl Format {
                 ("umb", &["umb"], "The unified Markov binary format that PRISM and Storm read, .umb")
             }
             Self::Native => ("dynabs", &["dynabs"], "The compact format of this program, .dynabs"),
-            Self::Combined => ("pexp", &["pexp"], "All of PRISM's explicit files in one, .pexp; it is only read"),
+            Self::Combined => {
+                ("pexp", &["pexp"], "All of PRISM's explicit files in one, .pexp; it is only read")
+            }
             Self::Bmdp => (
                 "bmdp",
                 &["txt"],
