@@ -235,7 +235,7 @@ fn every_encoding_is_a_model_of_its_own() {
     value["task"]["horizon"] = 2.into();
     value["dynamics"]["next"] = json!(["0.5*x + u", "0.5*y - 0.2*u"]);
     value["noise"] =
-        json!({"components": [{"gaussian": {"deviation": 0.3}}, {"uniform": {"lower": -0.4, "upper": 0.4}}]});
+        json!({"components": [{"gaussian": {"deviation": 0.7}}, {"uniform": {"lower": -0.4, "upper": 0.4}}]});
     value["partition"] = json!({"lower": [-2, -2], "upper": [2, 2], "cells": [8, 8]});
     std::fs::write(path("m.json"), value.to_string()).unwrap();
     let compile = |name: &str, more: &[&str]| {
