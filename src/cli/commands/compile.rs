@@ -292,7 +292,8 @@ fn configure(
     for text in &arguments.set {
         let argument: SetArgument =
             text.parse().map_err(|error| CliError::Input(format!("--set: {error}")))?;
-        document.set(&argument)?;
+        let name = format!("{} with --set", document.name);
+        document.set(&argument).map_err(|error| error.in_file(&name))?;
     }
     let mut notes = Vec::new();
     if let Some(seed) = arguments.seed {
