@@ -51,7 +51,7 @@ impl InputResult {
         let at = |values: &[f64], cell: &u32| values[*cell as usize];
         let lower = initial.iter().map(|cell| at(&solution.values.lower, cell)).fold(1.0, f64::min);
         let upper = initial.iter().map(|cell| at(&solution.values.upper, cell)).fold(0.0, f64::max);
-        let open = abstraction.question().open;
+        let decided = abstraction.decided();
         let verdict = problem.threshold().map(|threshold| {
             let of_cell = |cell: &u32| {
                 threshold_verdict(
@@ -66,9 +66,9 @@ impl InputResult {
             lower,
             upper,
             exported: None,
-            best: open.iter().map(|cell| at(&solution.values.lower, cell)).fold(0.0, f64::max),
-            mean: open.iter().map(|cell| at(&solution.values.lower, cell)).sum::<f64>()
-                / open.len().max(1) as f64,
+            best: decided.iter().map(|cell| at(&solution.values.lower, cell)).fold(0.0, f64::max),
+            mean: decided.iter().map(|cell| at(&solution.values.lower, cell)).sum::<f64>()
+                / decided.len().max(1) as f64,
             satisfied: match verdict {
                 Some(Verdict::Holds) => Some(true),
                 Some(Verdict::Fails) => Some(false),
@@ -160,7 +160,7 @@ pub(super) fn summary(problem: &InputProblem, abstraction: &InputAbstraction) ->
         format!(
             "{}, in {} of them something is decided",
             thousands(cells.into()),
-            thousands(question.open.len() as u64)
+            thousands(abstraction.decided().len() as u64)
         ),
     );
     line("inputs", thousands(problem.inputs().len() as u64));

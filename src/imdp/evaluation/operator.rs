@@ -1,6 +1,6 @@
 //! The operators `P` and `R`.
 
-use super::expression::Evaluator;
+use super::expression::{Evaluator, is_zero_or_one};
 use super::path::is_path;
 use super::{EvaluationError, Known, Numbers, Truth, directions};
 use crate::model::{IntervalMdp, RewardStructure};
@@ -26,7 +26,8 @@ impl Evaluator<'_> {
             ThresholdComparison::AtMost => Relation::LessEqual,
             ThresholdComparison::Below => Relation::Less,
         };
-        self.compared(comparison, |evaluator| {
+        let is_extreme = is_zero_or_one(threshold);
+        self.compared(comparison, is_extreme, |evaluator| {
             let values = Numbers::Bounds(evaluator.measured(&operator.measured, resolution)?);
             Ok((values, evaluator.numbers(threshold)?))
         })

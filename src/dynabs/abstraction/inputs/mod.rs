@@ -15,7 +15,7 @@ use crate::Warning;
 use crate::guarantee::Evidence;
 use crate::landing::{Axis, Images, Landing, LandingError, Layout, Question, Stencil, Taps, occurring};
 use crate::noise::known::Distribution;
-use crate::partition::{CellId, GridError};
+use crate::partition::{CellId, CellKind, GridError};
 use crate::problem::{InputNoise, InputProblem};
 use crate::statistics::BudgetError;
 use crate::system::{ImageError, ImageMap, Lattice};
@@ -182,12 +182,20 @@ impl InputAbstraction {
         Property::value(resolution, path)
     }
 
+    /// The cells in which the controller decides something, ascending: not those in which it takes the task for lost, for a
+    /// part of them is unsafe.
+    pub fn decided(&self) -> Vec<u32> {
+        let decides = |&cell: &u32| self.task.kind(CellId(cell)) == CellKind::Ordinary;
+        self.open.iter().copied().filter(decides).collect()
+    }
+
     /// The cells that are initial: the given one, or all in which something is decided.
     pub fn initial(&self, given: Option<CellId>) -> Vec<u32> {
+        let decided = self.decided();
         match given {
             Some(cell) => vec![cell.0],
-            None if self.open.is_empty() => (0..self.task.num_cells() as u32).collect(),
-            None => self.open.clone(),
+            None if decided.is_empty() => (0..self.task.num_cells() as u32).collect(),
+            None => decided,
         }
     }
 }
