@@ -86,8 +86,11 @@ fn bend(value: f64, kind: u8) -> f64 {
 }
 
 fn lie_about(derivation: &mut Derivation, (proof, list, entry, kind): Lie) {
-    fn pick<T>(list: &mut [(StateId, T)], entry: prop::sample::Index, change: impl FnOnce(&mut T)) {
-        if !list.is_empty() {
+    /// One entry, or all of them: what is false in all states may feed itself.
+    fn pick<T>(list: &mut [(StateId, T)], entry: prop::sample::Index, change: impl Fn(&mut T)) {
+        if entry.index(3) == 0 {
+            list.iter_mut().for_each(|item| change(&mut item.1));
+        } else if !list.is_empty() {
             change(&mut entry.get_mut(list).1);
         }
     }
@@ -152,7 +155,7 @@ fn false_claims(truth: Claim) -> Vec<Claim> {
 #[test]
 fn what_is_accepted_is_true() {
     let cases =
-        if std::env::var_os("PROPTEST_CASES").is_some() { ProptestConfig::default().cases } else { 120 };
+        if std::env::var_os("PROPTEST_CASES").is_some() { ProptestConfig::default().cases } else { 40 };
     let config = ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() };
     let lies = prop::collection::vec(
         (any::<prop::sample::Index>(), any::<u8>(), any::<prop::sample::Index>(), any::<u8>()),
@@ -163,7 +166,7 @@ fn what_is_accepted_is_true() {
         prop::collection::vec(any::<u8>(), 11),
         0..PATHS.len(),
         0..4usize,
-        prop::collection::vec(lies, 12),
+        prop::collection::vec(lies, 10),
     );
     let (accepted, rejected, without) = (Cell::new(0), Cell::new(0), Cell::new(0));
     TestRunner::new(config)
