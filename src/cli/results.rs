@@ -25,6 +25,14 @@ pub struct PropertyResult {
     decided: bool,
 }
 
+/// JSON has no infinity: it is written as PRISM does, in quotation marks.
+pub(crate) fn number(value: f64) -> serde_json::Value {
+    match value.is_infinite() {
+        true => if value > 0.0 { "Infinity" } else { "-Infinity" }.into(),
+        false => value.into(),
+    }
+}
+
 impl PropertyResult {
     /// Summarises an answer about a model.
     pub fn new(property: &Property, answer: &Answer, model: &IntervalMdp, time: Duration) -> Self {
