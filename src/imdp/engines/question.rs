@@ -122,7 +122,7 @@ impl EngineQuestion {
     pub fn text(&self) -> String {
         match &self.kind {
             QuestionKind::Event { value, .. } => value.to_string(),
-            QuestionKind::Expression(compound) => compound.text().to_owned(),
+            QuestionKind::Expression(compound) => compound.resolved(),
         }
     }
 }

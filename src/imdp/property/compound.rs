@@ -13,11 +13,6 @@ pub struct Compound {
 }
 
 impl Compound {
-    /// The expression, without the name.
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-
     pub(super) fn new(name: Option<String>, text: &str, root: Node) -> Self {
         Self { name, text: text.split_whitespace().collect::<Vec<_>>().join(" "), root }
     }
