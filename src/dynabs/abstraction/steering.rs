@@ -1,7 +1,7 @@
 //! Targets, the law that steers to them, and where it may be used: what samples have no part in.
 
 use super::AbstractionError;
-use super::enabled::{EnabledActions, enabled_actions};
+use super::enabled::{EnabledActions, enabled_around};
 use super::targets::Targets;
 use crate::partition::CellId;
 use crate::problem::{Actions, Problem};
@@ -14,6 +14,8 @@ pub(super) struct Steering {
     pub(super) law: FeedbackLaw,
     pub(super) extent: Extent,
     constraints: Vec<SteeringConstraint>,
+    /// Those of the cells, by dimension.
+    centers: Vec<Vec<f64>>,
 }
 
 impl Steering {
@@ -25,7 +27,8 @@ impl Steering {
         let extent = Extent { state: problem.grid().magnitudes(), target: targets.magnitudes() };
         let constraints =
             law.constraints(problem.input(), layers.map(|layers| layers.abstract_input()), &extent);
-        Ok(Self { targets, law, extent, constraints })
+        let centers = problem.grid().axes().iter().map(|axis| axis.centers()).collect();
+        Ok(Self { targets, law, extent, constraints, centers })
     }
 
     /// The actions that the law allows in each of `cells`.
@@ -35,6 +38,6 @@ impl Steering {
         cells: &[CellId],
         progress: &dyn Progress,
     ) -> EnabledActions {
-        enabled_actions(problem.grid(), cells, &self.targets, &self.constraints, progress)
+        enabled_around(&self.centers, problem.grid(), cells, &self.targets, &self.constraints, progress)
     }
 }

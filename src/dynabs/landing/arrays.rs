@@ -23,7 +23,7 @@ impl Arrays {
     }
 
     /// Keeps an array that is no longer needed; the smallest gives way.
-    pub(super) fn keep(&self, array: Vec<f64>) {
+    pub(crate) fn keep(&self, array: Vec<f64>) {
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         kept.push(array);
         if kept.len() > MOST {

@@ -17,6 +17,7 @@
 mod arrays;
 mod arrivals;
 mod axis;
+mod flat;
 mod gather;
 mod images;
 mod invariant;
@@ -34,6 +35,7 @@ mod solve;
 mod stage;
 mod stencil;
 mod step;
+mod stored;
 mod taps;
 #[cfg(test)]
 mod tests;
@@ -41,6 +43,7 @@ mod weights;
 
 pub(crate) use arrays::Arrays;
 pub use axis::Axis;
+pub use flat::FlatModelError;
 pub(crate) use gather::Gather;
 pub use images::{ImageSource, Images, LandingError, occurring};
 pub use layout::Layout;
