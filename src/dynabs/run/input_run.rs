@@ -5,6 +5,7 @@ use super::appearance::{NATIVE_MODEL, NOISE, PROBLEM};
 use super::error::OpenError;
 use super::manifest::{GroupedHorizon, InputFile, Manifest};
 use super::open::problem_document;
+use super::solution::input_solution_options;
 use super::staging::{RunDirectoryError, Staging};
 use super::write::{WriteOptions, begin_with_model, self_contained, write_samples};
 use crate::abstraction::inputs::{InputAbstraction, InputEncoding, InputModel};
@@ -29,6 +30,8 @@ pub struct InputRun {
     pub directory: PathBuf,
     /// What the run was.
     pub manifest: Manifest,
+    /// The model file.
+    pub document: Document,
     /// The problem.
     pub problem: InputProblem,
     /// Its abstraction.
@@ -65,12 +68,12 @@ impl InputRun {
         }
         let abstraction = InputAbstraction::new(&problem)
             .map_err(|error| OpenError::Inputs { path: shown(), error: Box::new(error) })?;
-        Ok(Self { directory: directory.to_path_buf(), manifest, problem: *problem, abstraction })
+        Ok(Self { directory: directory.to_path_buf(), manifest, document, problem: *problem, abstraction })
     }
 
     /// Bounds on the value of every cell and the policy behind them; the same for the same directory and options.
     pub fn solve(&self, options: &SolverOptions<'_>) -> LandingSolution {
-        self.abstraction.question().solve(options)
+        self.abstraction.question().solve(&input_solution_options(&self.problem, options))
     }
 }
 
