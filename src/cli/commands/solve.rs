@@ -14,7 +14,7 @@ use imdp::evaluation::{Evaluation, direct};
 use imdp::files::Outputs;
 use imdp::model::IntervalMdp;
 use imdp::progress::Progress;
-use imdp::property::{Inquiry, Property};
+use imdp::property::{Compound, Inquiry, Property};
 use imdp::solver::{Answer, SolverOptions};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -162,19 +162,14 @@ fn solve(
             Ok(result)
         }
         Ok(Inquiry::Compound(compound)) => {
-            if arguments.certificate.is_some() {
-                return Err(CliError::Input(format!(
-                    "--certificate: found {compound}; expected a property of one probability of F, G, U or X, perhaps compared \
-                     with a threshold"
-                )));
-            }
             let start = Instant::now();
             let evaluation = arguments.limits.with_options(bars, |options| {
-                let options = SolverOptions { policy: wanted.policy, ..*options };
+                let options = SolverOptions { policy: wanted.policy, evidence: wanted.evidence, ..*options };
                 Evaluation::new(&loaded.model, compound, nature, &options)
             });
-            let evaluation = evaluation.map_err(|error| CliError::Input(format!("{compound}: {error}")))?;
-            write_evaluation(arguments, loaded, &evaluation)?;
+            let mut evaluation =
+                evaluation.map_err(|error| CliError::Input(format!("{compound}: {error}")))?;
+            write_evaluation(arguments, loaded, compound, &mut evaluation)?;
             let mut result =
                 PropertyResult::of_evaluation(compound, &evaluation, &loaded.model, start.elapsed());
             result.guarantee = loaded.no_claim();
@@ -188,11 +183,12 @@ fn solve(
 fn write_evaluation(
     arguments: &SolveArguments,
     loaded: &LoadedModel,
-    evaluation: &Evaluation,
+    compound: &Compound,
+    evaluation: &mut Evaluation,
 ) -> Result<(), CliError> {
     let mut files = Outputs::default();
     if let Some(path) = &arguments.values {
-        let written = files.write(path, |out| write_evaluated(&loaded.model, evaluation, out));
+        let written = files.write(path, |out| write_evaluated(&loaded.model, &*evaluation, out));
         written.map_err(|error| CliError::writing(path, &error))?;
     }
     if let Some(path) = &arguments.policy {
@@ -204,6 +200,18 @@ fn write_evaluation(
             ));
         };
         let written = files.write(path, |out| write_policy(&loaded.model, policy, out));
+        written.map_err(|error| CliError::writing(path, &error))?;
+    }
+    if let Some(path) = &arguments.certificate {
+        let nature = arguments.questions.nature();
+        let derivation = evaluation.derivation(compound, nature, &loaded.model, loaded.digests()?);
+        let Some(derivation) = derivation else {
+            return Err(CliError::Input(format!(
+                "--certificate: found {compound}, which has a part that nothing proves yet: LTL, automata, an F or U that begins \
+                 after some steps, or a computation that was stopped; expected F, G, U, X and R, perhaps inside of each other"
+            )));
+        };
+        let written = files.write(path, |out| certificate::write_derivation(&derivation, out));
         written.map_err(|error| CliError::writing(path, &error))?;
     }
     files.commit().map_err(|error| CliError::Failure(error.to_string()))

@@ -76,13 +76,21 @@ pub fn solve(
     resolution: Resolution,
     options: &SolverOptions<'_>,
 ) -> Result<Solution, SolveError> {
+    solve_for(model, query, resolution.into(), options)
+}
+
+fn solve_for(
+    model: &IntervalMdp,
+    query: &Event<'_>,
+    players: query::Players,
+    options: &SolverOptions<'_>,
+) -> Result<Solution, SolveError> {
     query.check(model)?;
     let epsilon = options.epsilon;
     if epsilon.is_nan() || epsilon <= 0.0 {
         return Err(SolveError::Epsilon { epsilon });
     }
     working_memory::require_working_memory(model)?;
-    let players = resolution.into();
     match *query {
         Event::Next { goal } => bounded::next(model, goal, players, options),
         Event::Until { safe, goal, steps: Some(steps) } => {
