@@ -8,6 +8,7 @@ use dynabs::run::{Manifest, Run, WriteOptions, write_run};
 use imdp::formats::sha256_hex;
 use imdp::solver::{Answer, SolverOptions};
 use serde_json::{Value, json};
+use std::f64::consts::PI;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -350,7 +351,7 @@ fn input_models() -> [(&'static str, Value); 3] {
         "noise": {"components": [noise, {"uniform": {"lower": -0.1, "upper": 0.1}}]},
         "input": {"lower": [-1, 0], "upper": [1, 1], "points": [3, 2]},
         "partition": {
-            "lower": [-4, -3.141592653589793], "upper": [4, 3.141592653589793], "cells": [16, 12], "periodic": [false, true]
+            "lower": [-4, -PI], "upper": [4, PI], "cells": [16, 12], "periodic": [false, true]
         },
         "task": {
             "goal": [{"lower": [2, null], "upper": [4, null]}], "unsafe": [{"lower": [-4, null], "upper": [-3, null]}],
