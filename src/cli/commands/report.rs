@@ -1,14 +1,15 @@
 //! `dynabs-check report`: a run as one page.
 
 use crate::input_run_source::SolvedInputs;
-use crate::run_source::{Refined, refine};
+use crate::run_source::{Controlled, Refined};
 use crate::{Bars, CliError, print, warn};
 use clap::Args;
+use dynabs::controller::Controller;
 use dynabs::report::{
-    CrossCheckError, CrossChecks, InputMaterial, Material, MaterialOptions, Picture, ReportError, input_page,
-    input_pictures, page, pictures,
+    CrossCheckError, InputMaterial, Material, MaterialOptions, Picture, ReportError, input_page,
+    input_pictures, page, pictures, read_cross_checks,
 };
-use dynabs::run::{InputRun, Manifest};
+use dynabs::run::Manifest;
 use imdp::files::Outputs;
 use imdp::solver::SolverOptions;
 use std::fs;
@@ -70,12 +71,12 @@ impl From<CrossCheckError> for CliError {
 pub fn run(arguments: &ReportArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
     let start = Instant::now();
-    let (page, pictures) = match InputRun::is_in(&arguments.directory) {
-        true => of_inputs(arguments, start, &bars)?,
-        false => {
-            let Refined { run, answer, controller } = refine(&arguments.directory, &bars)?;
+    let (page, pictures) = match Controlled::open(&arguments.directory, &bars)? {
+        Controlled::Inputs(solved, controller) => of_inputs(arguments, &solved, &controller, start, &bars)?,
+        Controlled::Targets(refined) => {
+            let Refined { run, answer, controller } = &*refined;
             let options = options(arguments, &run.manifest, start)?;
-            let material = Material::new(&run, &answer, &controller, options, &*bars);
+            let material = Material::new(run, answer, controller, options, &*bars);
             (page(&material), pictures(&material))
         }
     };
@@ -106,12 +107,17 @@ pub fn run(arguments: &ReportArguments) -> Result<ExitCode, CliError> {
 type Reported = (Result<String, ReportError>, Vec<Picture>);
 
 /// A run whose actions are inputs.
-fn of_inputs(arguments: &ReportArguments, start: Instant, bars: &Arc<Bars>) -> Result<Reported, CliError> {
-    bars.catch_interrupts();
-    let solved = SolvedInputs::open(&arguments.directory, &SolverOptions::default(), bars)?;
-    let options = options(arguments, &solved.run.manifest, start)?;
-    let controller = solved.controller();
-    let material = InputMaterial::new(&solved.run, &solved.solution, &controller, options, &**bars);
+fn of_inputs(
+    arguments: &ReportArguments,
+    SolvedInputs { run, solution }: &SolvedInputs,
+    controller: &Controller,
+    start: Instant,
+    bars: &Bars,
+) -> Result<Reported, CliError> {
+    let solver = SolverOptions { interrupt: Some(bars.interrupt()), ..SolverOptions::default() };
+    let solution = run.by_step(solution, &solver);
+    let options = options(arguments, &run.manifest, start)?;
+    let material = InputMaterial::new(run, &solution, controller, options, bars);
     Ok((input_page(&material), input_pictures(&material)))
 }
 
@@ -122,7 +128,7 @@ fn options(
     start: Instant,
 ) -> Result<MaterialOptions, CliError> {
     let times = if arguments.no_times { vec![] } else { vec![("opening and solving", start.elapsed())] };
-    let cross_checks = match CrossChecks::read(&arguments.directory, manifest) {
+    let cross_checks = match read_cross_checks(&arguments.directory, manifest) {
         Err(error @ CrossCheckError::OtherModel { .. }) => {
             warn(&format!("warning: {error}\n"));
             None

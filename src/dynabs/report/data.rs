@@ -142,7 +142,7 @@ fn targets(material: &Material<'_>) -> Value {
     match targets.axes() {
         Some(axes) => json!({"axes": axes}),
         None => {
-            let points = (0..targets.len() as u32).map(|target| material.controller.target_point(target));
+            let points = (0..targets.len() as u32).map(|target| material.controller.action(target));
             json!({"points": points.collect::<Vec<_>>()})
         }
     }

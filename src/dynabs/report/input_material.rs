@@ -4,7 +4,7 @@ use super::material::{MOST_STEPS, MaterialOptions};
 use super::numbers::tuple;
 use super::scene::{Scene, SceneActions, faces};
 use super::values::StepValues;
-use crate::controller::{InputController, InputSimulation, ParameterChoice};
+use crate::controller::{Controller, ParameterChoice, Simulation};
 use crate::guarantee::Safety;
 use crate::landing::LandingSolution;
 use crate::partition::{CellId, CellKind, Region};
@@ -18,7 +18,7 @@ use imdp::progress::Progress;
 pub struct InputMaterial<'a> {
     pub(super) run: &'a InputRun,
     pub(super) solution: &'a LandingSolution,
-    pub(super) controller: &'a InputController,
+    pub(super) controller: &'a Controller,
     pub(super) options: MaterialOptions,
     /// Whether the probability asked for is promised, where that is decided.
     pub(super) satisfied: Option<bool>,
@@ -32,7 +32,7 @@ impl<'a> InputMaterial<'a> {
     pub fn new(
         run: &'a InputRun,
         solution: &'a LandingSolution,
-        controller: &'a InputController,
+        controller: &'a Controller,
         options: MaterialOptions,
         progress: &dyn Progress,
     ) -> Self {
@@ -43,7 +43,7 @@ impl<'a> InputMaterial<'a> {
             axes.map(|(axis, i)| to_f64(&axis.center(i))).collect()
         };
         let start = problem.initial_state().map_or_else(center, <[f64]>::to_vec);
-        let simulation = InputSimulation::new(problem, controller, ParameterChoice::Random, MOST_STEPS);
+        let simulation = Simulation::of_inputs(problem, controller, ParameterChoice::Random, MOST_STEPS);
         let tally = simulation.tally(&start, options.seed, options.runs, progress);
         let drawn = 0..options.drawn;
         let trajectories = drawn.map(|run| simulation.trajectory(&start, options.seed, run)).collect();
@@ -114,7 +114,7 @@ fn mean(noise: &InputNoise, dimension: usize) -> Vec<f64> {
 }
 
 /// The cell with the median of the bounds that are positive.
-fn typical_cell(run: &InputRun, controller: &InputController) -> CellId {
+fn typical_cell(run: &InputRun, controller: &Controller) -> CellId {
     let mut cells: Vec<CellId> = run.abstraction.decided().into_iter().map(CellId).collect();
     cells.sort_by(|&a, &b| controller.bound(a).total_cmp(&controller.bound(b)).then(a.cmp(&b)));
     let first = cells.partition_point(|&cell| controller.bound(cell) <= 0.0);
@@ -125,7 +125,7 @@ fn typical_cell(run: &InputRun, controller: &InputController) -> CellId {
 /// Actions that apply inputs.
 struct Applying<'a> {
     run: &'a InputRun,
-    controller: &'a InputController,
+    controller: &'a Controller,
     noise_mean: Vec<f64>,
 }
 
@@ -142,7 +142,7 @@ impl SceneActions for Applying<'_> {
             _ => None,
         });
         let entries = open.map_or(&[][..], |memory| self.controller.entries(memory, cell));
-        entries.iter().map(|entry| (entry.steps_left, entry.target)).collect()
+        entries.iter().map(|entry| (entry.steps_left, entry.action)).collect()
     }
 
     fn successor(&self, cell: CellId, action: u32) -> Vec<f64> {
@@ -152,7 +152,7 @@ impl SceneActions for Applying<'_> {
         let center: Vec<f64> = axes.map(|(axis, i)| to_f64(&axis.center(i))).collect();
         let parameters: Vec<f64> = mode.parameters().iter().map(|p| p.middle()).collect();
         let mut next = vec![0.0; center.len()];
-        mode.step(&center, self.controller.nominal(action), &parameters, &mut Vec::new(), &mut next);
+        mode.step(&center, self.controller.action(action), &parameters, &mut Vec::new(), &mut next);
         // As exactly as pages have it.
         next.iter().zip(&self.noise_mean).map(|(x, mean)| f64::from((x + mean) as f32)).collect()
     }
@@ -162,8 +162,8 @@ impl SceneActions for Applying<'_> {
             self.run.problem.mode().inputs().iter().map(|input| input.name.as_str()).collect();
         match names[..] {
             [] => "none to choose".to_owned(),
-            [one] => format!("{one} = {}", super::numbers::short(self.controller.nominal(action)[0])),
-            _ => format!("({}) = {}", names.join(", "), tuple(self.controller.nominal(action))),
+            [one] => format!("{one} = {}", super::numbers::short(self.controller.action(action)[0])),
+            _ => format!("({}) = {}", names.join(", "), tuple(self.controller.action(action))),
         }
     }
 

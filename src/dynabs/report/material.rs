@@ -1,13 +1,13 @@
 //! What a report of actions that are targets is made of.
 
 use super::numbers::{subscripted, tuple};
-use super::results::CrossChecks;
 use super::scene::{Scene, SceneActions, faces};
 use super::values::StepValues;
 use crate::controller::{Controller, Noise, Simulation};
 use crate::partition::{CellId, CellKind};
 use crate::problem::{Problem, StepNoise};
 use crate::run::Run;
+use imdp::engines::CrossCheckFile;
 use imdp::numeric::to_f64;
 use imdp::progress::Progress;
 use imdp::solver::Answer;
@@ -28,7 +28,7 @@ pub struct MaterialOptions {
     /// How long the phases so far took; empty for a page that is the same every time.
     pub times: Vec<(&'static str, Duration)>,
     /// What other engines said.
-    pub cross_checks: Option<CrossChecks>,
+    pub cross_checks: Option<CrossCheckFile>,
 }
 
 /// A solved run with its controller, simulated: everything a report shows.
@@ -112,16 +112,16 @@ impl SceneActions for Steering<'_> {
     }
 
     fn entries(&self, cell: CellId) -> Vec<(u64, u32)> {
-        self.controller.entries(cell).iter().map(|entry| (entry.steps_left, entry.target)).collect()
+        self.controller.entries(0, cell).iter().map(|entry| (entry.steps_left, entry.action)).collect()
     }
 
     fn successor(&self, _: CellId, action: u32) -> Vec<f64> {
-        let point = self.controller.target_point(action);
+        let point = self.controller.action(action);
         point.iter().zip(&self.noise_mean).map(|(d, mean)| d + mean).collect()
     }
 
     fn words(&self, action: u32) -> String {
-        format!("steer to d = {}", tuple(self.controller.target_point(action)))
+        format!("steer to d = {}", tuple(self.controller.action(action)))
     }
 
     fn enabled(&self, cell: CellId) -> usize {

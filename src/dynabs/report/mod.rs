@@ -30,7 +30,7 @@ mod words;
 pub use input_material::InputMaterial;
 pub use material::{Material, MaterialOptions};
 pub use page::{ReportError, input_page, page};
-pub use results::{CROSS_CHECK, CrossCheckError, CrossChecks};
+pub use results::{CROSS_CHECK, CrossCheckError, read_cross_checks};
 
 use heat_map::heat_map;
 use scene::Scene;

@@ -6,7 +6,6 @@ use super::input_material::InputMaterial;
 use super::markup::{PLOT_STYLE, escape};
 use super::material::Material;
 use super::picked::facts;
-use super::results::CrossChecks;
 use super::scene::Scene;
 use super::section::section;
 use super::view::View;
@@ -15,6 +14,7 @@ use super::{formulas, input_formulas, tables, words};
 use crate::rendered::ended;
 use crate::run::Manifest;
 use askama::Template;
+use imdp::engines::CrossCheckFile;
 
 const STYLE: &str = include_str!("../templates/report.css");
 const SCRIPT: &str = include_str!("../templates/report.js");
@@ -68,7 +68,7 @@ struct Specifics<'a> {
     embedded: Embedded,
     model: String,
     sizes: String,
-    cross_checks: Option<&'a CrossChecks>,
+    cross_checks: Option<&'a CrossCheckFile>,
     method: &'static str,
 }
 
