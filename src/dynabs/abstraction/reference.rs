@@ -36,7 +36,8 @@ pub(super) fn build(
     if landings.shared().is_none() {
         need_of_rows(problem, targets.len() as u64 * landings.row_length(grid) as u64).check()?;
     }
-    let ground = Ground::new(grid, landings.shared().map(|_| targets), states.heads(), |cell| states.of_cell(cell));
+    let ground =
+        Ground::new(grid, landings.shared().map(|_| targets), states.heads(), |cell| states.of_cell(cell));
     let hits = landings.shared().map(|landing| Hits::new(Cow::Borrowed(landing), &ground));
     let of_target = |target| {
         let (landing, _) = landings.of(targets, target, grid, &mut vec![0; grid.dimension()]);

@@ -69,7 +69,10 @@ impl RangeOptimum {
 
     /// Per row, the least of some numbers that stand for ranges which contain it, 1 if there is none: what the table says is
     /// lost, but for the row values.
-    pub(super) fn least_around<'r>(&mut self, ranges: impl Iterator<Item = (&'r [RowRange], f64)>) -> Vec<f64> {
+    pub(super) fn least_around<'r>(
+        &mut self,
+        ranges: impl Iterator<Item = (&'r [RowRange], f64)>,
+    ) -> Vec<f64> {
         let mut least = vec![1.0f64; self.levels[0].len()];
         self.levels[1..].iter_mut().for_each(|level| level.fill(1.0));
         let lower = |place: &mut f64, number: f64| *place = if number < *place { number } else { *place };

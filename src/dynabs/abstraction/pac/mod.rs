@@ -152,10 +152,12 @@ impl<'a> PacRows<'a> {
             let entries = targets.len() as u64 * landings.row_length(grid) as u64;
             need_of_rows(problem, entries).check()?;
         }
-        let ground = Ground::new(grid, landings.shared().map(|_| targets), states.heads(), |cell| match outcomes.of(cell) {
-            Outcome::Lost => FAILED,
-            Outcome::Reached => REACHED,
-            Outcome::Open => states.of_cell(cell),
+        let ground = Ground::new(grid, landings.shared().map(|_| targets), states.heads(), |cell| {
+            match outcomes.of(cell) {
+                Outcome::Lost => FAILED,
+                Outcome::Reached => REACHED,
+                Outcome::Open => states.of_cell(cell),
+            }
         });
         let lost_cells = BoxCount::new(&ground, |state| state == FAILED);
         let goal_cells = BoxCount::new(&ground, |state| state != FAILED && !ground.lists(state));

@@ -50,7 +50,11 @@ pub(in crate::solver) fn within(
         found
     };
     (
-        grown(&|row, set| hits(rows.row(row, &mut RowBuffer::default()), nature, |s| set.contains(s.index()))),
-        grown(&|row, set| stays(rows.row(row, &mut RowBuffer::default()), nature, |s| set.contains(s.index()))),
+        grown(&|row, set| {
+            hits(rows.row(row, &mut RowBuffer::default()), nature, |s| set.contains(s.index()))
+        }),
+        grown(&|row, set| {
+            stays(rows.row(row, &mut RowBuffer::default()), nature, |s| set.contains(s.index()))
+        }),
     )
 }
