@@ -44,7 +44,8 @@ pub struct SolveArguments {
     #[arg(long, value_name = "FILE")]
     policy: Option<PathBuf>,
 
-    /// Write what is needed to check the result again with `verify` (for one property).
+    /// Write what is needed to check the result again with `verify` (for one property). For a directory of actions "inputs"
+    /// it is the model of its files that is solved, not the lattice.
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
 
@@ -93,13 +94,19 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
 pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
     let start = Instant::now();
-    if InputRun::is_in(&arguments.path) && !arguments.explicit && arguments.questions.is_empty() {
+    let is_input_task =
+        InputRun::is_in(&arguments.path) && !arguments.explicit && arguments.questions.is_empty();
+    if is_input_task && arguments.certificate.is_none() {
         return solve_inputs(arguments, &bars);
     }
     let loaded = load(&arguments.path, arguments.explicit, &bars)?;
     let reading = start.elapsed();
-    let questions = arguments.questions.read(&loaded)?;
+    let mut questions = arguments.questions.read(&loaded)?;
     loaded.require_unchanged()?;
+    if is_input_task {
+        // A certificate is about the model of the directory: of its two bounds, the one that a controller guarantees.
+        questions.truncate(1);
+    }
     let outputs = [&arguments.values, &arguments.policy, &arguments.certificate];
     if outputs.into_iter().any(Option::is_some) && questions.len() != 1 {
         let found = questions.len();
@@ -204,12 +211,6 @@ fn write_evaluation(
 
 /// The task of a run whose actions are inputs, on the lattice itself.
 fn solve_inputs(arguments: &SolveArguments, bars: &Arc<Bars>) -> Result<ExitCode, CliError> {
-    if arguments.certificate.is_some() {
-        return Err(CliError::Input(format!(
-            "--certificate: found the directory {}; expected a model file\n  Compile with --format dynabs and give model.dynabs of that directory.",
-            arguments.path.display()
-        )));
-    }
     bars.catch_interrupts();
     let start = Instant::now();
     let options = SolverOptions {
