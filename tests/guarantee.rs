@@ -113,7 +113,10 @@ fn every_output_carries_the_statement() {
     ];
     for (name, text) in texts {
         for fixed in FIXED {
-            assert!(text.contains(fixed) || text.contains(&fixed.replace('\'', "_")), "{name}: {fixed}: {text}");
+            assert!(
+                text.contains(fixed) || text.contains(&fixed.replace('\'', "_")),
+                "{name}: {fixed}: {text}"
+            );
         }
         assert!(text.contains("0.99"), "{name}: {text}");
         assert!(name == "manifest" || text.contains("5 settings"), "{name}: {text}");

@@ -3,7 +3,7 @@
 use super::compile_inputs;
 use super::solve::LimitArguments;
 use crate::results::{PropertyResult, exit_code, table};
-use crate::summary::{memory, summary};
+use crate::summary::{memory, memory_json, summary};
 use crate::{Bars, CliError, EncodingName, FormatName, print, use_threads, warn};
 use clap::Parser;
 use dynabs::abstraction::{Abstraction, Footprint, compile};
@@ -11,7 +11,7 @@ use dynabs::model_file::{Document, SetArgument, StatedProblem, json_schema, star
 use dynabs::problem::Problem;
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, solution_options, write_run};
 use imdp::files::{self, Outputs};
-use imdp::model::{IntervalMdp, available_memory};
+use imdp::model::IntervalMdp;
 use imdp::property::Property;
 use imdp::solver::{Answer, Pruned};
 use serde_json::{Value, json};
@@ -164,6 +164,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
                 prune: arguments.prune,
                 json: arguments.json,
                 quiet: arguments.quiet,
+                dry_run: arguments.dry_run,
             };
             let sources = (&document, source.as_str());
             return compile_inputs::compile_inputs(sources, &problem, &wanted, notes, start, &bars);
@@ -331,10 +332,7 @@ fn report(
         if let Value::Object(object) = &mut object {
             object.insert("seconds".to_owned(), Value::Object(times));
             if arguments.dry_run {
-                let available = available_memory().map(|(bytes, _)| bytes);
-                let memory =
-                    json!({"needs": footprint.needs(), "bytes": footprint.bytes(), "available": available});
-                object.insert("memory".to_owned(), memory);
+                object.insert("memory".to_owned(), memory_json(footprint));
             }
             if !results.is_empty() {
                 object.insert("results".to_owned(), json!(results));
