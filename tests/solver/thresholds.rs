@@ -62,6 +62,7 @@ fn forged(honest: &Certificate) -> Vec<Certificate> {
                 list.push(with(Evidence::Inductive(changed)));
             }
         }
+        Evidence::RewardSteps(_) | Evidence::RewardInductive(_) => unreachable!(),
     }
     list.truncate(40);
     list

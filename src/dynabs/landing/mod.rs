@@ -36,6 +36,7 @@ mod solve;
 mod stage;
 mod stencil;
 mod step;
+mod stored;
 mod taps;
 #[cfg(test)]
 mod tests;

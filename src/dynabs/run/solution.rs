@@ -1,12 +1,11 @@
 //! The solution that a run holds, and what is wanted of one.
 
-use super::appearance::{NATIVE_MODEL, SOLUTION};
+use super::appearance::SOLUTION;
 use super::error::OpenError;
 use super::files::RunFiles;
-use crate::problem::Problem;
-use imdp::model::IntervalMdp;
-use imdp::property::Property;
-use imdp::solution_file;
+use crate::problem::{InputProblem, Problem};
+use imdp::model::StateId;
+use imdp::solution_file::{self, SolutionSubject};
 use imdp::solver::{Solution, SolverOptions, Status};
 
 /// The most grouped steps for which values are kept.
@@ -17,10 +16,27 @@ const MOST_VALUES: u64 = 600_000;
 
 /// What controllers and reports need of a solution: the policy, and values with fewer steps left where they are few.
 pub fn solution_options<'a>(problem: &Problem, options: &SolverOptions<'a>) -> SolverOptions<'a> {
-    let cells = u64::from(problem.grid().num_cells());
-    let steps = problem.horizon().unwrap_or(0).min(MOST_STEPS).min((MOST_VALUES / cells).saturating_sub(1));
-    SolverOptions { policy: true, history: steps as usize, ..*options }
+    let history = kept_steps(problem.grid().num_cells(), problem.horizon());
+    SolverOptions { policy: true, history, ..*options }
 }
+
+/// What reports need of the solution of a problem whose actions are inputs; a task with a memory is another one later.
+pub(super) fn input_solution_options<'a>(
+    problem: &InputProblem,
+    options: &SolverOptions<'a>,
+) -> SolverOptions<'a> {
+    let has_memory = problem.cell_task().memories() > 1;
+    let history = kept_steps(problem.grid().num_cells(), problem.horizon().filter(|_| !has_memory));
+    SolverOptions { policy: true, history, ..*options }
+}
+
+/// For how many grouped steps values are kept.
+fn kept_steps(cells: u32, horizon: Option<u64>) -> usize {
+    horizon.unwrap_or(0).min(MOST_STEPS).min((MOST_VALUES / u64::from(cells)).saturating_sub(1)) as usize
+}
+
+/// What a solution on the lattice is of; the problem says the rest.
+pub(super) const ON_LATTICE: &str = "the task, by memory and cell";
 
 /// Whether a solution is as good as another computation would be.
 pub(super) fn is_final(solution: &Solution) -> bool {
@@ -28,15 +44,17 @@ pub(super) fn is_final(solution: &Solution) -> bool {
         && matches!(solution.status, Status::HorizonReached | Status::Converged | Status::PrecisionLimit)
 }
 
-/// The solution of `property` that a run holds, if it does.
+/// The solution of `property` that a run holds, if it does: of what `file` says, with so many states and these choices.
 pub(super) fn stored(
     files: &RunFiles,
-    property: &Property,
-    model: &IntervalMdp,
+    (file, property): (&str, &str),
+    states: usize,
+    is_choice: &dyn Fn(StateId, u32) -> bool,
 ) -> Result<Option<Solution>, OpenError> {
-    let Some(sha256) = files.sha256(NATIVE_MODEL).filter(|_| files.sha256(SOLUTION).is_some()) else {
+    let Some(sha256) = files.sha256(file).filter(|_| files.sha256(SOLUTION).is_some()) else {
         return Ok(None);
     };
-    let solution = solution_file::read(&files.read(SOLUTION)?, property, model, sha256);
+    let subject = SolutionSubject { property, sha256, states, is_choice };
+    let solution = solution_file::read(&files.read(SOLUTION)?, &subject);
     solution.map(Some).map_err(|error| OpenError::Solution { path: files.path(SOLUTION), error })
 }

@@ -1,11 +1,13 @@
 //! Evaluating expressions.
 
-use super::{EvaluationError, Known, Nature, Numbers, Truth, Values, interval};
+use super::derivation::Checker;
+use super::{EvaluationError, Known, Numbers, Truth, Values, interval};
+use crate::certificate::Evidence;
 use crate::model::{IntervalMdp, StateSet, VariableValues};
 use crate::numeric::{Rational, to_f64_down, to_f64_up};
 use crate::property::{
-    BinaryOperator, Constant, Function, Node, NodeKind, Relation, Verdict, arithmetic, call, constant,
-    formula, is_formula,
+    BinaryOperator, Constant, Function, Nature, Node, NodeKind, Relation, Verdict, arithmetic, call,
+    constant, formula, is_formula,
 };
 use crate::solver::{Inexact, Policy, SolverOptions, Status};
 use num_traits::{One, Zero};
@@ -27,6 +29,12 @@ pub(super) struct Evaluator<'a> {
     pub(super) extremes: bool,
     /// Why a probability could not be had exactly, if so.
     pub(super) inexact: Option<Inexact>,
+    /// What proves the values of operators, in the order of their evaluation, if that was asked for.
+    pub(super) evidence: Vec<Evidence>,
+    /// Whether there is something among them that nothing proves.
+    pub(super) is_unproved: bool,
+    /// Proofs to be checked in place of computing anything.
+    pub(super) checker: Option<Checker<'a>>,
     /// Formulas with operators that have been evaluated, by where they stand.
     truths: HashMap<*const Node, Truth>,
 }
@@ -44,6 +52,9 @@ impl<'a> Evaluator<'a> {
             exactly: None,
             extremes: false,
             inexact: None,
+            evidence: vec![],
+            is_unproved: false,
+            checker: None,
             truths: HashMap::new(),
         }
     }
@@ -168,7 +179,9 @@ impl<'a> Evaluator<'a> {
         for extremes in [true, false] {
             let stopped =
                 matches!(self.status, Status::IterationLimit | Status::TimeLimit | Status::Interrupted);
-            if truth.is_exact() || stopped {
+            // Certificates have no proofs of exact values.
+            let proofs_only = self.options.evidence || self.checker.is_some();
+            if truth.is_exact() || stopped || proofs_only {
                 break;
             }
             if extremes && !is_extreme {

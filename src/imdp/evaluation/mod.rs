@@ -6,6 +6,7 @@
 
 mod automaton;
 mod cosafe;
+mod derivation;
 mod directions;
 mod error;
 mod exact;
@@ -18,14 +19,16 @@ mod path;
 mod product;
 mod truth;
 
-pub use directions::{Nature, direct};
+pub use derivation::check_derivation;
+pub use directions::direct;
 pub use error::EvaluationError;
 pub use numbers::{Known, Numbers};
 pub use truth::Truth;
 
+use crate::certificate::{Claim, Derivation, Evidence, FileDigest};
 use crate::model::{IntervalMdp, StateId};
-use crate::property::{Compound, Verdict};
-use crate::solver::{Inexact, Policy, SolverOptions, Status};
+use crate::property::{Compound, Nature, Verdict};
+use crate::solver::{Inexact, Policy, SolverOptions, Status, ValueBounds};
 use expression::Evaluator;
 
 /// What an expression comes to in every state.
@@ -35,6 +38,22 @@ pub enum Values {
     Truth(Truth),
     /// A number.
     Numbers(Numbers),
+}
+
+impl Values {
+    /// What is known of the initial states.
+    fn claim(&self, model: &IntervalMdp) -> Claim {
+        let initial = || model.initial().ones();
+        match self {
+            Self::Truth(truth) => Claim::Verdict(Verdict::in_all(initial().map(|s| truth.verdict(s)))),
+            Self::Numbers(numbers) => {
+                let all: Vec<_> = initial().map(|s| numbers.bounds(s)).collect();
+                let lower = all.iter().map(|bounds| bounds.0).fold(f64::INFINITY, f64::min);
+                let upper = all.iter().map(|bounds| bounds.1).fold(f64::NEG_INFINITY, f64::max);
+                Claim::Between(lower, upper)
+            }
+        }
+    }
 }
 
 /// An expression answered.
@@ -50,6 +69,9 @@ pub struct Evaluation {
     pub inexact: Option<Inexact>,
     /// The policy, if the expression is a single operator and it was asked for.
     pub policy: Option<Policy>,
+    /// What proves the values of the operators in it, in the order of their evaluation, if that was asked for and there is
+    /// something for all of them.
+    pub evidence: Option<Vec<Evidence>>,
 }
 
 impl Evaluation {
@@ -65,8 +87,25 @@ impl Evaluation {
     ) -> Result<Self, EvaluationError> {
         let mut evaluator = Evaluator::new(model, nature, *options);
         let values = evaluator.values(&compound.root)?;
+        let evidence =
+            (options.evidence && !evaluator.is_unproved).then(|| std::mem::take(&mut evaluator.evidence));
         let Evaluator { status, iterations, inexact, .. } = evaluator;
-        Ok(Self { values, status, iterations, inexact, policy: evaluator.finish() })
+        Ok(Self { values, status, iterations, inexact, policy: evaluator.finish(), evidence })
+    }
+
+    /// The certificate of this evaluation of `compound`, for a model read from `files`; none if something in it has no proof.
+    ///
+    /// The evidence, which may be large, moves into it.
+    pub fn derivation(
+        &mut self,
+        compound: &Compound,
+        nature: Option<Nature>,
+        model: &IntervalMdp,
+        files: Vec<FileDigest>,
+    ) -> Option<Derivation> {
+        let proofs = self.evidence.take()?;
+        let (expression, states) = (compound.resolved(), model.num_states() as u64);
+        Some(Derivation { expression, nature, files, states, claim: self.values.claim(model), proofs })
     }
 
     /// Bounds on the value in a state; none if it is a formula.
@@ -75,6 +114,21 @@ impl Evaluation {
             Values::Numbers(numbers) => Some(numbers.bounds(state.index())),
             Values::Truth(_) => None,
         }
+    }
+
+    /// Bounds in every state; of a formula, 1 where it holds and 0 where it does not.
+    pub fn value_bounds(&self, states: usize) -> ValueBounds {
+        let of_verdict = |verdict| match verdict {
+            Verdict::Holds => (1.0, 1.0),
+            Verdict::Fails => (0.0, 0.0),
+            Verdict::Unknown => (0.0, 1.0),
+        };
+        let of_state = |state| match &self.values {
+            Values::Numbers(numbers) => numbers.bounds(state),
+            Values::Truth(truth) => of_verdict(truth.verdict(state)),
+        };
+        let (lower, upper) = (0..states).map(of_state).unzip();
+        ValueBounds { lower, upper }
     }
 
     /// Whether the formula holds in a state; none if it is a number.

@@ -114,6 +114,10 @@ impl Evaluator<'_> {
         first: u64,
         resolution: Resolution,
     ) -> Result<Known, EvaluationError> {
+        if let Some(checker) = &mut self.checker {
+            let bounds = checker.event(model, event, first, resolution)?;
+            return Ok(Known::within(bounds.lower, bounds.upper));
+        }
         if let Some(wanted) = &self.exactly {
             let (lower, upper) = (vec![0.0; model.num_states()], vec![1.0; model.num_states()]);
             if self.extremes {

@@ -41,6 +41,7 @@ mod prune;
 mod query;
 mod range_optimum;
 mod reward;
+mod shared;
 mod slow;
 mod solution;
 mod sweep;
@@ -76,13 +77,21 @@ pub fn solve(
     resolution: Resolution,
     options: &SolverOptions<'_>,
 ) -> Result<Solution, SolveError> {
+    solve_for(model, query, resolution.into(), options)
+}
+
+fn solve_for(
+    model: &IntervalMdp,
+    query: &Event<'_>,
+    players: query::Players,
+    options: &SolverOptions<'_>,
+) -> Result<Solution, SolveError> {
     query.check(model)?;
     let epsilon = options.epsilon;
     if epsilon.is_nan() || epsilon <= 0.0 {
         return Err(SolveError::Epsilon { epsilon });
     }
     working_memory::require_working_memory(model)?;
-    let players = resolution.into();
     match *query {
         Event::Next { goal } => bounded::next(model, goal, players, options),
         Event::Until { safe, goal, steps: Some(steps) } => {
