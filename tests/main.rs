@@ -12,6 +12,7 @@ mod controller;
 mod covered;
 mod crosscheck_engines;
 mod crosscheck_storm;
+mod design;
 mod diff;
 mod enclosure;
 mod faults;

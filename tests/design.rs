@@ -1,0 +1,62 @@
+//! Designs that are left to the tool: how inputs share what is to be done, how many steps become one.
+use crate::common::root;
+use dynabs::abstraction::compile;
+use dynabs::model_file::Document;
+use dynabs::problem::Problem;
+use imdp::solver::{Answer, SolverOptions};
+use std::fs;
+
+fn problem(name: &str, sets: &[&str]) -> Problem {
+    let path = root().join(format!("tests/data/design/{name}.json"));
+    let mut document = Document::parse(&path, &fs::read_to_string(&path).unwrap()).unwrap();
+    sets.iter().for_each(|set| document.set(&set.parse().unwrap()).unwrap());
+    document.problem().unwrap()
+}
+
+fn value(name: &str, sets: &[&str]) -> f64 {
+    value_of(&problem(name, sets))
+}
+
+fn value_of(problem: &Problem) -> f64 {
+    let abstraction = compile(problem, &()).unwrap();
+    Answer::new(&abstraction.model, &abstraction.property, &SolverOptions::default()).unwrap().lower
+}
+
+/// A heater and a cooler that can each do as much are worth what one input is that can do both.
+#[test]
+fn opposed_inputs_are_as_good_as_one() {
+    let two = value("heat_and_cool", &[]);
+    let one = value("heat_and_cool", &["/dynamics/B=[[0.1]]", "/input/lower=[-10]", "/input/upper=[10]"]);
+    assert!(two >= one && one > 0.99, "{two} {one}");
+}
+
+#[test]
+fn an_input_more_does_not_harm_and_units_do_not_matter() {
+    let both = value("weak_input", &[]);
+    let strong = value("weak_input", &["/dynamics/B=[[1]]", "/input/lower=[-2]", "/input/upper=[2]"]);
+    assert!(both >= strong && strong > 0.99, "{both} {strong}");
+    // The weak one in thousandths.
+    let sets = ["/dynamics/B=[[0.001, 1]]", "/input/lower=[-10, -2]", "/input/upper=[10, 2]"];
+    assert_eq!(value("weak_input", &sets), both);
+}
+
+/// Three inputs for two states, one of them one-sided: about 0 nothing can be done with it.
+#[test]
+fn one_sided_inputs_are_used_about_their_middle() {
+    let three = value("three_inputs", &[]);
+    let sets = ["/dynamics/B=[[500, 0.2, 0.1], [100, 0.4, -0.3]]", "/input/lower=[-0.001, -1, 0]"];
+    let other = value("three_inputs", &[sets[0], sets[1], "/input/upper=[0.001, 1, 2]"]);
+    assert!(three > 0.1 && (three - other).abs() < 1e-6, "{three} {other}");
+}
+
+/// The fewest steps that make the grouped `B` of full rank let nothing be enabled here.
+#[test]
+fn as_many_steps_are_grouped_as_it_takes() {
+    let problem = problem("slow_chain", &[]);
+    let (last, others) = problem.grouping().split_last().unwrap();
+    assert!(last.works() && last.steps == problem.group_steps());
+    assert!(others.iter().all(|trial| trial.share > 0.5 || !trial.works()));
+    assert_eq!(problem.grouping()[0].steps, 2);
+    assert!(problem.grouping()[0].share > 1.0);
+    assert!(value_of(&problem) > 0.9);
+}
