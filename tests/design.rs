@@ -1,6 +1,8 @@
 //! Designs that are left to the tool: how inputs share what is to be done, how many steps become one.
 use crate::common::root;
 use dynabs::abstraction::compile;
+use dynabs::controller::Controller;
+use dynabs::explain::{Reason, explain};
 use dynabs::model_file::Document;
 use dynabs::problem::Problem;
 use imdp::solver::{Answer, SolverOptions};
@@ -59,4 +61,49 @@ fn as_many_steps_are_grouped_as_it_takes() {
     assert_eq!(problem.grouping()[0].steps, 2);
     assert!(problem.grouping()[0].share > 1.0);
     assert!(value_of(&problem) > 0.9);
+}
+
+fn reasons(sets: &[&str]) -> Vec<Reason> {
+    let problem = problem("heat_and_cool", sets);
+    let abstraction = compile(&problem, &()).unwrap();
+    let options = SolverOptions { policy: true, ..SolverOptions::default() };
+    let answer = Answer::new(&abstraction.model, &abstraction.property, &options).unwrap();
+    let controller = Controller::new(&problem, &abstraction, &answer).unwrap();
+    let explanation = explain(&problem, &abstraction, &answer, &controller, &());
+    assert_eq!(explanation.bound, answer.lower);
+    assert!(explanation.to_string().lines().count() > explanation.reasons.len());
+    explanation.reasons
+}
+
+#[test]
+fn what_is_low_is_explained() {
+    // Good as it is: runs succeed, and nothing else is to say.
+    let good = reasons(&[]);
+    assert!(matches!(&good[0], Reason::Losses { simulated, .. } if *simulated > 0.99), "{good:?}");
+    assert!(
+        matches!(&good[1], Reason::Noise { spreads } if (0.4..0.6).contains(&spreads[0].deviation)),
+        "{good:?}"
+    );
+    // From 16.1 to 20 it takes several steps.
+    let far = reasons(&["/task/horizon=1"]);
+    assert!(matches!(far[0], Reason::TooFar { steps: Some(2..), horizon: Some(1), .. }), "{far:?}");
+    // A hundred samples do not prove what a thousand do.
+    let few = reasons(&["/noise/count=300"]);
+    assert!(
+        matches!(few[0], Reason::Samples { exact, samples: 300, needed: Some(600..) } if exact > 0.99),
+        "{few:?}"
+    );
+    // Far more noise than room.
+    let noisy = reasons(&["/noise/gaussian/covariance=[[9]]"]);
+    let lost = |reason: &Reason| match reason {
+        Reason::Losses { losses, .. } => {
+            losses.iter().any(|loss| loss.end.contains("leave the partition at x1"))
+        }
+        _ => false,
+    };
+    assert!(noisy.iter().any(lost), "{noisy:?}");
+    // From 16.3 the state comes to 16.67 ± 0.01, which is no target for a cell that moves by ± 0.09.
+    let weak = reasons(&["/input/upper=[1, 1]", "/initial_state=[16.3]"]);
+    assert!(matches!(&weak[0], Reason::NothingAtStart { idle: 1.., .. }), "{weak:?}");
+    assert!(matches!(reasons(&["/initial_state=null"])[0], Reason::NoStart { .. }));
 }

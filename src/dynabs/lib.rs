@@ -62,6 +62,7 @@
 pub mod abstraction;
 pub mod controller;
 mod diagnostic;
+pub mod explain;
 pub mod geometry;
 pub mod guarantee;
 pub mod landing;
