@@ -1,16 +1,23 @@
 #!/usr/bin/env python3
-"""Runs PRISM's own test cases of interval models through dynabs.
+"""Runs PRISM's own interval models, with the properties shipped beside them, through dynabs.
 
-    crosscheck-prism-tests.py PRISM_TESTS [--prism PATH] [--dynabs PATH]
+    crosscheck-prism-tests.py PRISM_TESTS [PRISM_EXAMPLES …] [--prism PATH] [--dynabs PATH]
 
-PRISM_TESTS is a checkout of prism-tests. PRISM exports every model below functionality/verify/imdps and
-idtmcs to explicit files in a temporary directory; dynabs answers those properties that it supports and is
-compared with the RESULT comments beside them, to the 1e-5 that PRISM's own tests allow. Ends with 1 if a
-value differs, and with 77 if PRISM or the tests are missing. Needs nothing but Python's standard library.
+Every model with intervals below the directories (checkouts of prism-tests and of prism's prism-examples) is exported by
+PRISM in every format that it has: .tra with .sta, .lab and rewards, DRN, UMB and .pexp. dynabs answers all properties of the
+model from each of them, with the constants that PRISM's .args files or `auto` scripts name. What PRISM says, asked the same
+with -epsilon 1e-8, and the RESULT comments of its tests must lie within dynabs' bounds or the 1e-5 that PRISM's own tests
+allow; all formats must give the same bounds. A property counts as agreeing if it agrees for all constants. PRISM's DRN has no
+variables and no rewards of transitions: properties that need them are left out there, and intervals compared instead.
+
+Prints a line for every model. Ends with 1 if anything differs, and with 77 if PRISM or its models are missing. Needs nothing
+but Python's standard library.
 """
 
 import argparse
 import itertools
+import json
+import math
 import os
 import re
 import subprocess
@@ -18,24 +25,47 @@ import sys
 import tempfile
 from pathlib import Path
 
-from crosscheck.engines import Dynabs, Failure, find
+from crosscheck.engines import find
 
 TOLERANCE = 1e-5
+FORMATS = ("tra", "drn", "umb", "pexp")
 FUNCTIONS = {"min": min, "max": max, "true": True, "false": False, "__builtins__": {}}
+# What the models that come without any constants are asked with: those of the RESULT comments of prism-tests.
+USUAL = {"delta": "0.1", "K": "2", "bias1": "0.01", "p": "0.4", "q": "0.6"}
 
 
 def evaluate(text, constants):
     """The value of an arithmetic expression in the files, or None."""
     try:
         return eval(text, FUNCTIONS, dict(constants))  # Of PRISM's tests, without builtins.
-    except (NameError, SyntaxError, TypeError):
+    except (NameError, SyntaxError, TypeError, AttributeError):
         return None
 
 
-def runs(model):
-    """The constants of every run: one dictionary for each combination in the .args files."""
-    names = [model.with_name(model.name + ".props.args"), model.with_name(model.name + ".args")]
-    lines = [line for name in names if name.exists() for line in name.read_text().splitlines()]
+def has_intervals(text):
+    return re.search(r"\[[^\[\]\n]*,[^\[\]\n]*\]\s*:", text) is not None
+
+
+def property_files(model):
+    """The files of properties that belong to a model."""
+    own = sorted(model.parent.glob(model.name + "*.props"))
+    near = model.with_suffix(".props")
+    used = [model.parent / name for name in re.findall(rf"^prism {model.name} (\S+\.props)", scripts(model), flags=re.MULTILINE)]
+    return own or ([near] if near.exists() else sorted(set(used)))
+
+
+def scripts(model):
+    auto = model.with_name("auto")
+    return auto.read_text() if auto.exists() else ""
+
+
+def runs(model, props):
+    """The constants of every run: one dictionary for each combination that is named beside the model."""
+    names = {p.with_name(p.name + ".args") for p in props} | {model.with_name(model.name + ".args")}
+    lines = [line for name in sorted(names) if name.exists() for line in name.read_text().splitlines()]
+    lines += [line for line in scripts(model).splitlines() if line.startswith(f"prism {model.name} ")]
+    needed = re.findall(r"^\s*const\s+(?:\w+\s+)?(\w+)\s*;", model.read_text(), flags=re.MULTILINE)
+    found = []
     for line in [line for line in lines if line.strip() and not line.startswith("#")] or [""]:
         axes = []
         for assignment in itertools.chain(*(part.split(",") for part in re.findall(r"-const (\S+)", line))):
@@ -45,103 +75,203 @@ def runs(model):
                 low, step, high = map(float, text.split(":"))
                 values = [f"{low + i * step:.10g}" for i in range(int((high - low) / step + 1.5))]
             axes.append([(name, value) for value in values])
-        yield from map(dict, itertools.product(*axes))
+        for combination in map(dict, itertools.product(*axes)):
+            missing = {name: USUAL[name] for name in needed if name not in combination and name in USUAL}
+            if combination | missing not in found:
+                found.append(combination | missing)
+    return found
 
 
-def definitions(text, constants):
-    """Constants with the values of `const` lines, as far as they can be computed."""
-    known = {name: evaluate(value, {}) for name, value in constants.items()}
-    for name, value in re.findall(r"^const\s+(?:\w+\s+)?(\w+)\s*=\s*([^;]+);", text, flags=re.MULTILINE):
-        known[name] = evaluate(value, known)
+def definitions(text):
+    """Constants and formulas of a model, which its properties may use but its exports do not have."""
+    plain = re.sub(r"//[^\n]*", "", text)
+    return re.findall(r"^\s*((?:const|formula)\b[^;]*;)", plain, flags=re.MULTILINE)
+
+
+def known_constants(texts, given):
+    """Constants with their values, as far as they can be computed."""
+    known = {name: evaluate(value, {}) for name, value in given.items()}
+    for name, value in re.findall(r"^\s*const\s+(?:\w+\s+)?(\w+)\s*=\s*([^;]+);", "\n".join(texts), flags=re.MULTILINE):
+        known.setdefault(name, evaluate(value, known))
     return known
 
 
 def properties(text):
-    """(property, its RESULT comments) of a .props file."""
+    """(property, its RESULT comments) of files of properties."""
     comments = []
-    for line in text.splitlines():
-        line = line.strip()
+    for line in map(str.strip, text.splitlines()):
         if line.startswith("//"):
             comments.append(line)
-        elif line and not line.startswith("const"):
+        elif line and not line.startswith(("const", "label", "formula")):
             yield re.sub(r'^"\w+":\s*', "", line.split("//")[0].strip().rstrip(";")), comments
             comments = []
 
 
-def expected(comments, constants):
+def promised(comments, constants):
     """The RESULT for these constants, as a number or truth value."""
     for comment in comments:
-        found = re.match(r"//\s*RESULT\s*(?:\(([^)]*)\))?\s*:\s*([^/]*(?:/[^/]+)*)", comment)
+        found = re.match(r"//\s*RESULT\s*(?:\(([^)]*)\))?\s*:\s*(.*)", comment)
         if not found:
             continue
         wanted = [pair.split("=") for pair in (found[1] or "").split(",") if pair]
-        same = lambda name, value: name in constants and constants[name] == evaluate(value.strip(), {})
+        same = lambda name, value: name in constants and constants[name] == evaluate(value.strip(), FUNCTIONS)
         if all(same(name.strip(), value) for name, value in wanted):
             return evaluate(found[2].split("//")[0].strip(), constants)
     return None
 
 
+def prisms(output, count):
+    """What PRISM says about each property: a number, a truth value, or None with its error."""
+    values = []
+    for part in re.split(r"^Model checking: .*$", output, flags=re.MULTILINE)[1:]:
+        result = re.search(r"^Result: (\S+)", part, flags=re.MULTILINE)
+        text = result[1] if result else None
+        if text in ("true", "false"):
+            values.append(text == "true")
+        else:
+            values.append(float(text.replace("Infinity", "inf")) if text else None)
+    return values + [None] * (count - len(values))
+
+
+def difference(result, value):
+    """How far a value lies outside of dynabs' bounds; relative above 1, infinite for another truth value."""
+    if isinstance(value, bool) or value is None:
+        return 0.0 if value is None or result.get("satisfied") is value else math.inf
+    number = lambda end: math.nan if result.get(end) is None else float(str(result[end]).replace("Infinity", "inf"))
+    lower, upper = number("lower"), number("upper")
+    if lower <= value <= upper:
+        return 0.0
+    gap = max(lower - value, value - upper) / max(1.0, abs(value))
+    return math.inf if math.isnan(gap) else gap
+
+
+class Model:
+    """A model of PRISM's, its properties, and what came of them."""
+
+    def __init__(self, path):
+        self.path, self.text = path, path.read_text()
+        files = property_files(path)
+        self.shipped = "\n".join(file.read_text() for file in files)
+        self.properties = list(properties(self.shipped))
+        self.runs = runs(path, files)
+        self.faults = {}
+        self.prism_only_refuses = set()
+        self.formats = set()
+        self.compared = 0
+
+    def fault(self, index, text):
+        self.faults.setdefault(index, text)
+
+    def check(self, arguments, given, scratch):
+        constants = [f"{name}={value}" for name, value in given.items()]
+        named = ["-const", ",".join(constants)] if constants else []
+        props = scratch / "asked.props"
+        props.write_text(self.shipped)
+        exports = itertools.chain(["-exportmodel", "m.tra,sta,lab,srew,trew"], *(["-exportmodel", f"m.{end}"] for end in FORMATS[1:]))
+        command = [arguments.prism, str(self.path), *([str(props)] if self.properties else []), "-ex", *named, *exports]
+        command += ["-exportmodelprecision", "17", "-epsilon", "1e-8", "-maxiters", "1000000"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=scratch)
+        theirs = prisms(done.stdout, len(self.properties))
+        known = known_constants([self.text, self.shipped], given)
+        # The model's own constants and formulas in front; labels are in the exports.
+        props.write_text("\n".join(definitions(self.text)) + "\n" + self.shipped)
+        first = None
+        for end in FORMATS:
+            answers = self.ours(arguments, scratch / f"m.{end}", props, given)
+            if isinstance(answers, str):
+                self.fault(f".{end}", f"{end} {' '.join(constants)}: {answers}")
+                continue
+            self.formats.add(end)
+            lost = [end == "drn" and self.needs_more_than_drn(scratch, text, answer) for (text, _), answer in zip(self.properties, answers)]
+            for index, ((text, comments), answer) in enumerate(zip(self.properties, answers)):
+                if lost[index]:
+                    continue
+                at = f"{end} {' '.join(constants)}: {text}"
+                if "error" in answer:
+                    self.fault(index, f"{at}: {answer['error']}")
+                for who, value in (("PRISM", theirs[index]), ("RESULT", promised(comments, known))):
+                    if difference(answer, value) > TOLERANCE:
+                        self.fault(index, f"{at}: [{answer.get('lower')}, {answer.get('upper')}] {answer.get('satisfied')}, {who} {value}")
+                    self.compared += value is not None
+                if theirs[index] is None:
+                    self.prism_only_refuses.add(index)
+                    if promised(comments, known) is None:
+                        self.fault(index, f"{at}: nothing to compare with")
+            ends = [[answer.get(key) for key in ("lower", "upper", "satisfied")] for answer in answers]
+            if first is not None and any(a != b for a, b, is_lost in zip(ends, first, lost) if not is_lost):
+                self.fault(f".{end}", f"{end} {' '.join(constants)}: other bounds than from .tra")
+            first = first or ends
+            if end == "drn":
+                self.same_intervals(arguments, scratch, constants)
+
+    def needs_more_than_drn(self, scratch, text, answer):
+        """Whether a property is about variables or rewards of transitions."""
+        earned = any(len(path.read_text().splitlines()) > 3 for path in scratch.glob("m*.trew"))
+        return "has no variable" in answer.get("error", "") or (text.startswith("R") and earned and self.is_chain())
+
+    def is_chain(self):
+        return re.search(r"^\s*(dtmc|idtmc)\b", self.text, flags=re.MULTILINE) is not None
+
+    def same_intervals(self, arguments, scratch, constants):
+        command = [arguments.dynabs, "diff", scratch / "m.drn", scratch / "m.tra"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if not re.search(r"^intervals +same", done.stdout, flags=re.MULTILINE):
+            self.fault(".drn", f"drn {' '.join(constants)}: {done.stdout}{done.stderr}")
+
+    def ours(self, arguments, path, props, given):
+        """The answers of dynabs, or why there are none."""
+        if not path.exists():
+            return "not exported"
+        if not self.properties:
+            command = [arguments.dynabs, "diff", path, path.with_suffix(".tra")]
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            return [] if done.returncode == 0 else done.stdout + done.stderr
+        constants = [f"--const={name}={value}" for name, value in given.items()]
+        command = [arguments.dynabs, "solve", path, props, *constants, "--json", "-q", "--epsilon", "1e-8"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        try:
+            results = json.loads(done.stdout)["results"]
+        except ValueError:
+            return done.stderr.strip()
+        return results if len(results) == len(self.properties) else f"{len(results)} answers"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tests", type=Path)
+    parser.add_argument("folders", type=Path, nargs="+")
     parser.add_argument("--prism", default=os.environ.get("PRISM", "prism"))
     root = Path(__file__).resolve().parent.parent
     parser.add_argument("--dynabs", default=os.environ.get("DYNABS_CHECK", str(root / "target/release/dynabs-check")))
     arguments = parser.parse_args()
-    folders = [arguments.tests / "functionality" / "verify" / kind for kind in ("imdps", "idtmcs")]
-    prism, dynabs = find(arguments.prism), find(arguments.dynabs) or find("dynabs-check")
-    if dynabs is None:
-        sys.exit(f"{arguments.dynabs} is missing: cargo build --release, or --dynabs PATH")
-    if prism is None or not all(folder.is_dir() for folder in folders):
-        print(f"skipped: needs PRISM (--prism PATH) and its tests in {arguments.tests}")
+    arguments.prism, wanted = find(arguments.prism), arguments.dynabs
+    arguments.dynabs = find(wanted) or find("dynabs-check")
+    if arguments.dynabs is None:
+        sys.exit(f"{wanted} is missing: cargo build --release, or --dynabs PATH")
+    paths = [path for folder in arguments.folders for path in sorted(folder.rglob("*.prism")) if has_intervals(path.read_text())]
+    if arguments.prism is None or not paths:
+        print("skipped: needs PRISM (--prism PATH) and directories with its interval models")
         sys.exit(77)
 
-    agree, wrong, unsupported, largest = 0, [], {}, 0.0
-    with tempfile.TemporaryDirectory() as directory:
-        stem = Path(directory) / "m"
-        for model in sorted(itertools.chain(*(folder.glob("*.prism") for folder in folders))):
-            for given in runs(model):
-                constants = [f"{name}={value}" for name, value in given.items()]
-                export = f"{stem.with_suffix('.tra')},sta,lab"
-                command = [prism, str(model), "-ex", "-exportmodel", export]
-                command += ["-const", ",".join(constants)] if constants else []
-                subprocess.run(command, capture_output=True, check=False, cwd=directory)
-                for props in sorted(model.parent.glob(model.name + "*.props")):
-                    texts = props.read_text()
-                    known = definitions(texts, {}) | definitions(model.read_text(), given)
-                    for text, comments in properties(texts):
-                        value = expected(comments, known)
-                        if not text.startswith("P") or value is None:
-                            continue
-                        spelled = re.sub(r'"\w+"|\b[A-Za-z_]\w*\b', lambda m: substitute(m[0], known), text)
-                        # dynabs has no division; one of the tests has this one.
-                        spelled = re.sub(r"(\w+)/(\d+)<0\.1", r"10*\1<\2", spelled)
-                        at = f"{model.name} {' '.join(constants)}: {text}"
-                        try:
-                            [result] = Dynabs(dynabs).results(stem, [spelled], 1e-7)
-                        except Failure as failure:
-                            unsupported.setdefault(str(failure).split("error: ")[-1].split("column")[-1].lstrip(" 0123456789:")[:90], []).append(at)
-                            continue
-                        if isinstance(value, bool):
-                            difference = 0.0 if result["satisfied"] is value else 1.0
-                        else:
-                            difference = max(result["lower"] - value, value - result["upper"], 0.0)
-                            largest = max(largest, difference)
-                        if difference > TOLERANCE:
-                            wrong.append(f"{at}: {result} instead of {value}")
-                        else:
-                            agree += 1
-    print(f"{agree} agree, {len(wrong)} differ; furthest outside of dynabs' bounds: {largest:.1e}")
-    for reason, places in unsupported.items():
-        print(f"skipped {len(places)}: {reason}")
-    for line in wrong:
-        print(f"DIFFERS {line}")
-    sys.exit(1 if wrong else 0)
-
-
-def substitute(word, constants):
-    value = constants.get(word)
-    return word if value is None or isinstance(value, bool) else f"{value:g}" if isinstance(value, float) else str(value)
+    agree = total = files = 0
+    models = []
+    for path in paths:
+        model = Model(path)
+        models.append(model)
+        for given in model.runs:
+            with tempfile.TemporaryDirectory() as scratch:
+                model.check(arguments, given, Path(scratch))
+        good = sum(index not in model.faults for index in range(len(model.properties)))
+        read = sum(f".{end}" not in model.faults for end in model.formats)
+        agree, total, files = agree + good, total + len(model.properties), files + read
+        name = "/".join(path.parts[-3:])
+        print(f"{good:3} of {len(model.properties):2} properties, {read} of {len(FORMATS)} formats, {len(model.runs):2} runs: {name}", flush=True)
+        for fault in model.faults.values():
+            print(f"    {fault}", flush=True)
+    refused = sum(len(model.prism_only_refuses) for model in models)
+    compared = sum(model.compared for model in models)
+    print(f"{agree} of {total} properties agree ({refused} of which PRISM refuses itself), {compared} values compared")
+    print(f"{files} of {len(FORMATS) * len(models)} exports of {len(models)} models read with the same bounds")
+    sys.exit(0 if agree == total and files == len(FORMATS) * len(models) else 1)
 
 
 if __name__ == "__main__":

@@ -1,15 +1,17 @@
 //! Bounds of actions that are inputs enclose the truth, on a grid so fine that it is known.
 //!
-//! Twelve systems with five noises each, in one coordinate. The truth comes from the closed formulas of the dynamics and
+//! Twelve systems with five noises each, in one coordinate; with regions that consist of cells and, for a third of them, also with
+//! regions that cut cells. The truth comes from the closed formulas of the dynamics and
 //! of the distribution functions below, which share nothing with the library. Controls compute the lower bound as one
 //! would who forgets something; this test would notice.
 
 use dynabs::abstraction::inputs::InputAbstraction;
 use dynabs::controller::{Decision, InputController};
+use dynabs::landing::Question;
 use dynabs::model_file::{Document, StatedProblem};
 use dynabs::partition::CellId;
 use dynabs::problem::InputProblem;
-use dynabs::task::Standing;
+use dynabs::task::{CellTask, Standing};
 use imdp::solver::SolverOptions;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -79,6 +81,10 @@ struct Case {
     periodic: bool,
     cdf: Cdf,
     stay: bool,
+    /// To be reached or kept.
+    wanted: [f64; 2],
+    /// Unsafe below this.
+    wall: f64,
 }
 
 fn cases() -> Vec<Case> {
@@ -86,25 +92,44 @@ fn cases() -> Vec<Case> {
     for (s, (text, dynamics, periodic)) in SYSTEMS.into_iter().enumerate() {
         for (n, (noise, cdf)) in noises().into_iter().enumerate() {
             let stay = (s + n) % 2 == 1;
-            let task = if stay {
-                json!({"type": "stay", "safe": [{"lower": [-1.5], "upper": [1.5]}], "horizon": STEPS})
-            } else {
-                json!({"goal": [{"lower": [1], "upper": [1.5]}], "unsafe": [{"lower": [-2], "upper": [-1.5]}], "horizon": STEPS})
-            };
-            let model = json!({
-                "name": "case",
-                "dynamics": {"states": ["x"], "inputs": ["u"], "next": [text], "parameters": {"p": [0.75, 1]}},
-                "noise": {"components": [noise]},
-                "input": {"lower": [-0.5], "upper": [0.5], "points": [3]},
-                "partition": {"lower": [-2], "upper": [2], "cells": [CELLS], "periodic": [periodic], "resolution": [FINE]},
-                "task": task
-            });
-            let document = Document::parse(Path::new("case.json"), &model.to_string()).unwrap();
-            let StatedProblem::Inputs(problem) = document.stated().unwrap() else { panic!("not inputs") };
-            let parameters: &[f64] =
-                if text.contains('p') && text != "clip(1.2*x, -1.1, 1.3) + u" { &PARAMETERS } else { &[1.0] };
-            let name = format!("{text}, {noise}, {}", if stay { "stay" } else { "reach" });
-            cases.push(Case { name, problem: *problem, dynamics, parameters, periodic, cdf, stay });
+            // On faces of the grid, or between points somewhere in a cell.
+            let whole = if stay { ([-1.5, 1.5], -2.0) } else { ([1.0, 1.5], -1.5) };
+            let cut = if stay { ([-101.0 * H, 101.0 * H], -2.0) } else { ([57.0 * H, 103.0 * H], -91.0 * H) };
+            for (wanted, wall) in if (s + n) % 3 == 0 { vec![whole, cut] } else { vec![whole] } {
+                let wanted_box = json!([{"lower": [wanted[0]], "upper": [wanted[1]]}]);
+                let task = if stay {
+                    json!({"type": "stay", "safe": wanted_box, "horizon": STEPS})
+                } else {
+                    json!({"goal": wanted_box, "unsafe": [{"lower": [-2], "upper": [wall]}], "horizon": STEPS})
+                };
+                let model = json!({
+                    "name": "case",
+                    "dynamics": {"states": ["x"], "inputs": ["u"], "next": [text], "parameters": {"p": [0.75, 1]}},
+                    "noise": {"components": [noise]},
+                    "input": {"lower": [-0.5], "upper": [0.5], "points": [3]},
+                    "partition": {"lower": [-2], "upper": [2], "cells": [CELLS], "periodic": [periodic], "resolution": [FINE]},
+                    "task": task
+                });
+                let document = Document::parse(Path::new("case.json"), &model.to_string()).unwrap();
+                let StatedProblem::Inputs(problem) = document.stated().unwrap() else { panic!("not inputs") };
+                let parameters: &[f64] = if text.contains('p') && text != "clip(1.2*x, -1.1, 1.3) + u" {
+                    &PARAMETERS
+                } else {
+                    &[1.0]
+                };
+                let name = format!("{text}, {noise}, {} {wanted:?}", if stay { "stay in" } else { "reach" });
+                cases.push(Case {
+                    name,
+                    problem: *problem,
+                    dynamics,
+                    parameters,
+                    periodic,
+                    cdf,
+                    stay,
+                    wanted,
+                    wall,
+                });
+            }
         }
     }
     cases
@@ -117,19 +142,39 @@ enum Kind {
     Open,
 }
 
+/// The middle of a point.
+fn middle(point: usize) -> f64 {
+    -2.0 + (point as f64 + 0.5) * H
+}
+
 impl Case {
-    fn kind(&self, cell: usize) -> Kind {
-        match (self.stay, cell) {
-            (true, 2..14) => Kind::Open,
-            (false, 12..14) => Kind::Goal,
-            (_, 0..2) | (true, _) => Kind::Lost,
-            (false, _) => Kind::Open,
+    /// What a point is.
+    fn at(&self, point: usize) -> Kind {
+        let x = middle(point);
+        match (self.wanted[0] < x && x < self.wanted[1], self.stay) {
+            (false, true) => Kind::Lost,
+            (true, false) => Kind::Goal,
+            _ if x < self.wall => Kind::Lost,
+            _ => Kind::Open,
         }
     }
 
-    fn start(&self) -> Vec<f64> {
+    /// What a cell is in the worst of its points.
+    fn kind(&self, cell: usize) -> Kind {
+        let points = || (0..POINTS).map(|i| self.at(cell * POINTS + i));
+        if points().any(|kind| kind == Kind::Lost) {
+            Kind::Lost
+        } else if points().all(|kind| kind == Kind::Goal) {
+            Kind::Goal
+        } else {
+            Kind::Open
+        }
+    }
+
+    /// What something is worth at the start.
+    fn worth(&self, kind: Kind) -> f64 {
         let won = if self.stay { Kind::Open } else { Kind::Goal };
-        (0..CELLS).map(|cell| f64::from(u8::from(self.kind(cell) == won))).collect()
+        f64::from(u8::from(kind == won))
     }
 
     /// The probability that noise leads from `m` into an interval, or into one that is the same turned around.
@@ -141,17 +186,16 @@ impl Case {
     /// Worst and best values of all points after all steps: of the inputs of a controller, and of the best ones.
     fn truth(&self, decide: impl Fn(usize, u64) -> Option<u32>) -> (Vec<f64>, Vec<f64>) {
         let points = CELLS * POINTS;
-        let x = |i: usize| -2.0 + (i as f64 + 0.5) * H;
         // By point, input and parameter: the masses that lead to all points.
         let row = |i: usize, u: f64, p: f64| -> Vec<f64> {
-            let m = (self.dynamics)(x(i), u, p);
-            (0..points).map(|j| self.mass(m, x(j) - H / 2.0, x(j) + H / 2.0)).collect()
+            let m = (self.dynamics)(middle(i), u, p);
+            (0..points).map(|j| self.mass(m, middle(j) - H / 2.0, middle(j) + H / 2.0)).collect()
         };
         let rows =
             |i: usize| INPUTS.map(|u| self.parameters.iter().map(|&p| row(i, u, p)).collect::<Vec<_>>());
-        let open: Vec<usize> = (0..points).filter(|i| self.kind(i / POINTS) == Kind::Open).collect();
+        let open: Vec<usize> = (0..points).filter(|&i| self.at(i) == Kind::Open).collect();
         let rows: Vec<_> = open.iter().map(|&i| rows(i)).collect();
-        let start: Vec<f64> = self.start().iter().flat_map(|&v| [v; POINTS]).collect();
+        let start: Vec<f64> = (0..points).map(|i| self.worth(self.at(i))).collect();
         let (mut of_controller, mut best) = (start.clone(), start);
         for left in 1..=STEPS {
             let (old, old_best) = (of_controller.clone(), best.clone());
@@ -181,7 +225,7 @@ impl Case {
             Some(Forgotten::Tail) => near.iter().map(|&(k, p)| (k, p / listed)).collect(),
             _ => taps,
         };
-        let mut values = self.start();
+        let mut values: Vec<f64> = (0..CELLS).map(|cell| self.worth(self.kind(cell))).collect();
         for _ in 0..STEPS {
             let at = |i: i64| {
                 let i = if self.periodic { i.rem_euclid(sub_cells) } else { i };
@@ -230,7 +274,7 @@ enum Forgotten {
 
 #[test]
 fn bounds_enclose_the_truth() {
-    let mut caught = [0; 3];
+    let (mut caught, mut too_low) = ([0; 3], 0);
     let mut promised = 0;
     for case in cases() {
         let abstraction = InputAbstraction::new(&case.problem).unwrap();
@@ -253,6 +297,12 @@ fn bounds_enclose_the_truth() {
             (0..CELLS).find(exceeds)
         };
         let values = &solution.values;
+        // As if the regions were the cells inside, which is where the lower bounds are from.
+        let kinds = case.problem.labels().kinds();
+        let inside = CellTask::of_kinds(case.problem.objective().aim(), kinds, kinds);
+        let inside =
+            Question { task: &inside, ..abstraction.question() }.solve(&SolverOptions::default()).values;
+        assert_eq!(inside.lower, values.lower, "{}", case.name);
         if let Some(cell) = too_high(&values.lower, &of_controller) {
             panic!(
                 "{}: {} promised in cell {cell}: {:?}",
@@ -269,6 +319,7 @@ fn bounds_enclose_the_truth() {
                 case.name,
                 values.upper[cell]
             );
+            too_low += usize::from(inside.upper[cell] < most - TOLERANCE);
         }
         promised += values.lower.iter().filter(|&&v| v > 0.05 && v < 0.95).count();
         // Nobody does better than the best: a bound above it is wrong whatever the controller.
@@ -281,4 +332,5 @@ fn bounds_enclose_the_truth() {
     }
     assert!(promised > 200, "{promised} bounds that say something");
     assert!(caught.iter().all(|&caught| caught >= 5), "{caught:?}");
+    assert!(too_low >= 20, "{too_low} upper bounds for the cells inside are too low for the regions");
 }

@@ -50,6 +50,9 @@ fn the_general_solver_gives_the_native_values() {
     let tasks = [
         json!({"goal": [{"lower": [-3, -3], "upper": [-1, -1]}], "unsafe": [{"lower": [1.5, 1.5], "upper": [3, 3]}], "horizon": 3}),
         json!({"type": "stay", "horizon": 2}),
+        // Faces that cut cells: nature picks what these mean.
+        json!({"goal": [{"lower": [-3, -3], "upper": [-0.5, -1]}], "unsafe": [{"lower": [1.5, 1.25], "upper": [3, 3]}], "horizon": 3}),
+        json!({"type": "stay", "safe": [{"lower": [-2.5, -3], "upper": [2.5, 3]}], "horizon": 2}),
     ];
     for noise in
         [correlated(0.8), correlated(-0.5), sampled(None), sampled(Some("intervals")), sampled(Some("bands"))]

@@ -2,9 +2,12 @@
 
 use dynabs::abstraction::inputs::InputAbstraction;
 use dynabs::controller::{Decision, InputController, InputSimulation, ParameterChoice, RunMemory};
+use dynabs::geometry::Polytope;
 use dynabs::guarantee::Safety;
 use dynabs::model_file::{Document, StatedProblem};
 use dynabs::problem::InputProblem;
+use dynabs::system::{Demands, FeedbackLaw, ImageMap, ImageScratch, Lattice};
+use imdp::numeric::to_f64;
 use imdp::property::Resolution;
 use imdp::solver::{Answer, SolverOptions};
 use serde_json::{Value, json};
@@ -109,6 +112,54 @@ fn inputs_come_from_the_law() {
     assert_eq!(first(&[5.0, 2.0], 0, &mut u), Decision::Unsafe);
     assert_eq!(first(&[f64::NAN, 2.0], 0, &mut u), Decision::Outside);
     assert_eq!(first(&[3.0, -2.0], 10, &mut u), Decision::Over);
+}
+
+/// With `K = B⁻¹A` the action is the paper's: from every state of the cell to one point, by the same law.
+#[test]
+fn full_feedback_steers_to_a_point() {
+    let (a, b) = ([[0.9, 0.25], [-0.125, 0.75]], [[0.5, 0.0], [0.25, 0.5]]);
+    // B⁻¹A.
+    let gain = [[1.8, 0.5], [-1.15, 1.25]];
+    let mut value = car(reach(), 20);
+    value["dynamics"] = json!({"A": a, "B": b});
+    value["input"] = json!({"lower": [-5, -5], "upper": [5, 5], "points": [4, 3]});
+    value["feedback"] = json!({"gain": gain});
+    let problem = problem(&value);
+    let lattice = Lattice::new(problem.grid(), &[1, 1], &[true, true]);
+    let images = ImageMap::new(problem.mode(), problem.feedback(), problem.grid(), lattice, problem.inputs());
+    let system = problem.mode().as_linear().unwrap();
+    let law = FeedbackLaw::new(&system, &Polytope::from_box(&[], &[]), None, &Demands::default()).unwrap();
+    let matrices = (law.target_gain(), law.state_gain(), law.constant());
+    let mut scratch = ImageScratch::default();
+    for cell in [[3, 17], [10, 9], [0, 0]] {
+        let center = cell.map(|i| f64::from(i) - 9.5);
+        for (input, nominal) in problem.inputs().iter().enumerate() {
+            for j in 0..2 {
+                let range = images.range(images.row(input, j), &cell, &mut scratch).unwrap();
+                assert_eq!(range.first, range.last, "{cell:?} {input}");
+            }
+            let nominal: Vec<f64> = nominal.iter().map(to_f64).collect();
+            let row = |m: [[f64; 2]; 2], x: &[f64], j: usize| m[j][0] * x[0] + m[j][1] * x[1];
+            let target = [0, 1].map(|j| row(a, &center, j) + row(b, &nominal, j));
+            for corner in [[-0.5, -0.5], [0.25, 0.5], [0.0, 0.0]] {
+                let x = [center[0] + corner[0], center[1] + corner[1]];
+                let mut u = [0.0; 2];
+                problem.feedback().input(&nominal, &x, &center, &mut u);
+                for i in 0..2 {
+                    let at = |m: &nalgebra::DMatrix<f64>, v: [f64; 2]| m[(i, 0)] * v[0] + m[(i, 1)] * v[1];
+                    let paper = at(&matrices.0, target) + at(&matrices.1, x) + matrices.2[(i, 0)];
+                    assert!((paper - u[i]).abs() < 1e-12, "{paper} {u:?}");
+                }
+            }
+        }
+    }
+    // The control: with half of it the image is no point.
+    value["feedback"] = json!({"gain": gain.map(|row| row.map(|k| k / 2.0))});
+    let problem = self::problem(&value);
+    let lattice = Lattice::new(problem.grid(), &[4, 4], &[true, true]);
+    let images = ImageMap::new(problem.mode(), problem.feedback(), problem.grid(), lattice, problem.inputs());
+    let range = images.range(images.row(0, 0), &[3, 17], &mut scratch).unwrap();
+    assert!(range.last > range.first);
 }
 
 #[test]

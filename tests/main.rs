@@ -19,6 +19,7 @@ mod faults;
 mod formats;
 mod guarantee;
 mod import;
+mod input_models;
 mod input_noise;
 mod inputs;
 mod intervals;

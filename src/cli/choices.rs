@@ -1,6 +1,7 @@
 //! Choices of the library that an option names.
 
 use clap::ValueEnum;
+use dynabs::abstraction::inputs::InputEncoding;
 use imdp::formats::{Encoding, Format, Names};
 
 /// The formats, as `--format` names them.
@@ -35,13 +36,24 @@ pub enum EncodingName {
     Plain,
     /// Every choice with one transition to a state that stands for its row.
     Rows,
+    /// Actions "inputs": every choice with an interval for each cell instead of the states of the lattice; looser.
+    Flat,
 }
 
 impl From<EncodingName> for Encoding {
     fn from(name: EncodingName) -> Self {
         match name {
-            EncodingName::Plain => Self::Plain,
+            EncodingName::Plain | EncodingName::Flat => Self::Plain,
             EncodingName::Rows => Self::Rows,
+        }
+    }
+}
+
+impl From<EncodingName> for InputEncoding {
+    fn from(name: EncodingName) -> Self {
+        match name {
+            EncodingName::Plain | EncodingName::Rows => Self::Landing,
+            EncodingName::Flat => Self::Flat,
         }
     }
 }

@@ -1,14 +1,14 @@
 //! What came of a problem whose actions are inputs, for people and programs.
 
-use super::thousands;
-use dynabs::abstraction::inputs::InputAbstraction;
+use super::{CliError, thousands};
+use dynabs::abstraction::inputs::{InputAbstraction, InputModel};
 use dynabs::guarantee::{Event, Evidence, Guarantee, SampleEvidence, lower_bound_text};
 use dynabs::landing::LandingSolution;
 use dynabs::problem::{Components, InputNoise, InputProblem};
 use dynabs::statistics::Allocation;
 use imdp::numeric::{round_decimal_up, shortest_decimal};
 use imdp::property::Verdict;
-use imdp::solver::{SolverOptions, Status};
+use imdp::solver::{Answer, SolverOptions, Status};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::process::ExitCode;
@@ -51,7 +51,7 @@ impl InputResult {
         let at = |values: &[f64], cell: &u32| values[*cell as usize];
         let lower = initial.iter().map(|cell| at(&solution.values.lower, cell)).fold(1.0, f64::min);
         let upper = initial.iter().map(|cell| at(&solution.values.upper, cell)).fold(0.0, f64::max);
-        let open = abstraction.question().open;
+        let decided = abstraction.decided();
         let verdict = problem.threshold().map(|threshold| {
             let of_cell = |cell: &u32| {
                 threshold_verdict(
@@ -66,9 +66,9 @@ impl InputResult {
             lower,
             upper,
             exported: None,
-            best: open.iter().map(|cell| at(&solution.values.lower, cell)).fold(0.0, f64::max),
-            mean: open.iter().map(|cell| at(&solution.values.lower, cell)).sum::<f64>()
-                / open.len().max(1) as f64,
+            best: decided.iter().map(|cell| at(&solution.values.lower, cell)).fold(0.0, f64::max),
+            mean: decided.iter().map(|cell| at(&solution.values.lower, cell)).sum::<f64>()
+                / decided.len().max(1) as f64,
             satisfied: match verdict {
                 Some(Verdict::Holds) => Some(true),
                 Some(Verdict::Fails) => Some(false),
@@ -104,6 +104,19 @@ impl InputResult {
         Self { exported: Some([lower, upper]), ..self }
     }
 
+    /// Adds the bounds of a flat model, which is looser.
+    ///
+    /// # Errors
+    /// [`CliError::Failure`] if the model cannot be asked: a mistake in this program.
+    pub(super) fn with_flat(self, flat: &InputModel, options: &SolverOptions<'_>) -> Result<Self, CliError> {
+        let value = |property| {
+            Answer::new(&flat.model, property, options)
+                .map_err(|error| CliError::Failure(format!("{property}: {error}")))
+        };
+        let [lower, upper] = &flat.properties;
+        Ok(Self { exported: Some([value(lower)?.lower, value(upper)?.upper]), ..self })
+    }
+
     /// 1 if the threshold is missed, 3 if that is undecided, else 0.
     pub(super) fn exit_code(&self) -> ExitCode {
         match (self.satisfied, self.ended) {
@@ -118,7 +131,7 @@ impl InputResult {
         let verdict = self.satisfied.map_or(String::new(), |satisfied| format!("{satisfied}   "));
         let exported = self.exported.map_or(String::new(), |[lower, upper]| {
             format!(
-                "  the model in files is looser, for a band is no interval model: its value is in [{}, {}]\n",
+                "  the model in files is looser: its value is in [{}, {}]\n",
                 lower_bound_text(lower),
                 shortest_decimal(round_decimal_up(upper, 6)),
             )
@@ -160,7 +173,7 @@ pub(super) fn summary(problem: &InputProblem, abstraction: &InputAbstraction) ->
         format!(
             "{}, in {} of them something is decided",
             thousands(cells.into()),
-            thousands(question.open.len() as u64)
+            thousands(abstraction.decided().len() as u64)
         ),
     );
     line("inputs", thousands(problem.inputs().len() as u64));

@@ -3,9 +3,8 @@
 use crate::CliError;
 use crate::model_source::LoadedModel;
 use clap::{Args, ValueEnum};
-use imdp::evaluation::Nature;
 use imdp::files;
-use imdp::property::{Definitions, Entry, parse_document, parse_inquiry};
+use imdp::property::{Definitions, Entry, Nature, parse_document, parse_inquiry};
 use std::path::{Path, PathBuf};
 
 /// Which properties, and how they are read.

@@ -16,10 +16,10 @@ pub struct PropertyResult {
     /// The property in PRISM's syntax.
     pub property: String,
     /// The least lower bound of all initial states; none for formulas that have no value.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "serialized")]
     pub lower: Option<f64>,
     /// The greatest upper bound of all initial states; none for formulas that have no value.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "serialized")]
     pub upper: Option<f64>,
     /// For thresholds: whether they hold in all initial states; `null` if undecided or not asked.
     pub satisfied: Option<bool>,
@@ -52,23 +52,25 @@ pub struct InitialResult {
     /// The state.
     pub state: StateId,
     /// The lower bound of the value; none for formulas that have no value.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "serialized")]
     pub lower: Option<f64>,
     /// The upper bound of the value; none for formulas that have no value.
-    #[serde(serialize_with = "number")]
+    #[serde(serialize_with = "serialized")]
     pub upper: Option<f64>,
     /// For formulas and thresholds: whether they hold; `null` if undecided or not asked.
     pub satisfied: Option<bool>,
 }
 
 /// JSON has no infinity: it is written as PRISM does, in quotation marks.
-fn number<S: Serializer>(value: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
-    match value {
-        Some(value) if value.is_infinite() => {
-            serializer.serialize_str(if *value > 0.0 { "Infinity" } else { "-Infinity" })
-        }
-        value => value.serialize(serializer),
+pub(crate) fn number(value: f64) -> serde_json::Value {
+    match value.is_infinite() {
+        true => if value > 0.0 { "Infinity" } else { "-Infinity" }.into(),
+        false => value.into(),
     }
+}
+
+fn serialized<S: Serializer>(value: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
+    value.map(number).serialize(serializer)
 }
 
 impl PropertyResult {

@@ -129,6 +129,17 @@ fn other_peoples_files_are_read() {
 }
 
 #[test]
+fn rewards_without_a_name_are_read() {
+    // As PRISM writes them: the line with the names is empty.
+    let text = "@type: IMDP\n@parameters\n\n@reward_models\n\n@nr_states\n2\n@nr_choices\n2\n@model\n\
+                state 0 [1] init\n\taction a [0.5]\n\t\t1 : [1,1]\nstate 1 [0]\n\taction b [0]\n\t\t1 : [1,1]\n";
+    let model = import_text(text.as_bytes()).unwrap().model;
+    let rewards = model.rewards().nth(0).unwrap();
+    assert_eq!((rewards.name.as_str(), rewards.of_state(0), rewards.of_choice(0)), ("", 1.0, 0.5));
+    assert_eq!((rewards.of_state(1), rewards.of_choice(1), model.rewards().iter().len()), (0.0, 0.0, 1));
+}
+
+#[test]
 fn sums_are_those_of_the_decimals() {
     let tenths: String = (0..10).map(|state| format!("\t\t{state} : 0.1\n")).collect();
     let states: String =

@@ -62,6 +62,7 @@ fn forged(honest: &Certificate) -> Vec<Certificate> {
                 list.push(with(Evidence::Inductive(changed)));
             }
         }
+        Evidence::RewardSteps(_) | Evidence::RewardInductive(_) => unreachable!(),
     }
     list.truncate(40);
     list
@@ -105,6 +106,50 @@ proptest! {
             // Both sides change direction.
             let path = "G !\"goal\"";
             assert_decided(&labelled, resolution.flipped(), path, &(BigRational::from_integer(1.into()) - big(exact[0])));
+        }
+    }
+}
+
+/// Thresholds 0 and 1 are decided without any exact arithmetic, inside of formulas too.
+fn assert_extremes_are_decided(model: &IntervalMdp, resolution: Resolution, path: &str, exact: &BigRational) {
+    let options = SolverOptions { exact_work: 0, ..options() };
+    for threshold in 0..=1 {
+        let bound = BigRational::from_integer(threshold.into());
+        for (comparison, _) in COMPARISONS {
+            let holds = match comparison {
+                ">=" => *exact >= bound,
+                ">" => *exact > bound,
+                "<=" => *exact <= bound,
+                _ => *exact < bound,
+            };
+            let text = format!("({resolution}=? [ {path} ]){comparison}{threshold}");
+            let expected = |holds| (if holds { Verdict::Holds } else { Verdict::Fails }, None);
+            assert_eq!(verdict(model, &text, &options), expected(holds), "{text}: {exact}");
+            assert_eq!(verdict(model, &format!("!({text})"), &options), expected(!holds), "{text}: {exact}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn zero_and_one_are_decided_by_the_graph((model, safe, goal) in models::any_model(4, 6), steps in 0u64..6) {
+        let labelled = models::labelled(&model, &safe, &goal);
+        for (resolution, maxima) in RESOLUTIONS {
+            let exact = reference::bounded(&model, &safe, &goal, steps, maxima, false);
+            assert_extremes_are_decided(&labelled, resolution, &format!("\"safe\" U<={steps} \"goal\""), &exact[0]);
+            let exact = reference::bounded(&model, &safe, &goal, 1, maxima, true);
+            assert_extremes_are_decided(&labelled, resolution, "X \"goal\"", &exact[0]);
+        }
+    }
+
+    #[test]
+    fn zero_and_one_are_decided_for_ever((model, safe, goal) in models::any_model(3, 3)) {
+        let exact = reference::unbounded(&model, &safe, &goal);
+        let labelled = models::labelled(&model, &safe, &goal);
+        for ((resolution, _), exact) in RESOLUTIONS.into_iter().zip(&exact) {
+            assert_extremes_are_decided(&labelled, resolution, "\"safe\" U \"goal\"", &big(exact[0]));
         }
     }
 }

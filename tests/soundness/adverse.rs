@@ -3,7 +3,7 @@
 use super::model;
 use crate::common::certified::certified;
 use imdp::property::{Property, Resolution};
-use imdp::solver::{SolverOptions, Status};
+use imdp::solver::{Answer, SolverOptions, Status};
 
 /// The probability to win from the middle of `n`, with `odds` against the player in every round.
 fn ruin(n: i32, odds: f64) -> f64 {
@@ -34,5 +34,24 @@ fn bounds_meet_however_slow_the_model_is() {
             );
             assert_eq!(answer.solution.status, Status::Converged, "{name} {property}");
         }
+    }
+}
+
+/// The value differs from 1 by 10⁻³⁰, and has more digits than exact arithmetic should be asked for.
+#[test]
+fn one_is_told_from_almost_one() {
+    let model = model("adv/walk700.tra").model;
+    let options = SolverOptions { exact_work: 1 << 20, ..SolverOptions::default() };
+    for (text, holds) in [
+        ("(Pmaxmax=? [ F \"g\" ])>=1", false),
+        ("(Pmaxmax=? [ F \"g\" ])<1", true),
+        ("(Pmaxmin=? [ F \"g\" ])>0", true),
+        ("(Pmaxmin=? [ G !\"g\" ])>0", true),
+        ("(Pmaxmax=? [ F<=349 \"g\" ])>0", false),
+        ("(Pmaxmax=? [ F<=350 \"g\" ])<=0", false),
+    ] {
+        let property: Property = text.parse().unwrap();
+        let answer = Answer::new(&model, &property, &options).unwrap();
+        assert_eq!((answer.satisfied(), answer.inexact), (Some(holds), None), "{text}");
     }
 }

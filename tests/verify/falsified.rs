@@ -37,6 +37,7 @@ fn false_certificates_are_rejected() {
             match &certificate.evidence {
                 Evidence::Steps(steps) => falsify_steps(&mut rejected, &certificate, steps, &oracle),
                 Evidence::Inductive(_) => falsify_inductive(&mut rejected, &certificate, &oracle, exact),
+                Evidence::RewardSteps(_) | Evidence::RewardInductive(_) => unreachable!(),
             }
         });
     });

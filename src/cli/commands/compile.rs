@@ -13,8 +13,8 @@ use dynabs::model_file::{Document, SetArgument, StatedProblem, json_schema, star
 use dynabs::problem::Problem;
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, solution_options, write_run};
 use imdp::files::{self, Outputs};
-use imdp::model::available_memory;
-use imdp::property::Verdict;
+use imdp::model::{IntervalMdp, available_memory};
+use imdp::property::{Property, Verdict};
 use imdp::solver::{Answer, Pruned};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -47,11 +47,13 @@ pub struct CompileArguments {
     #[arg(long, value_name = "FORMAT", value_enum, value_delimiter = ',', default_values_t = [FormatName::Prism])]
     format: Vec<FormatName>,
 
-    /// How choices are written in these formats: as they are (model.*), or with one state per row (rows.*).
+    /// How choices are written in these formats: as they are (model.*), with one state per row (rows.*), or, for actions
+    /// "inputs", without the states of the lattice (model.*, looser).
     #[arg(long, value_name = "ENCODING", value_enum, default_value_t)]
     encoding: EncodingName,
 
-    /// Leave out the explicit files model.tra, model.sta and model.lab: the same as --format dynabs.
+    /// Leave out the explicit files model.tra, model.sta and model.lab: the same as --format dynabs. For actions "inputs",
+    /// which need no file to be solved, leave out the model altogether.
     #[arg(long, conflicts_with = "format")]
     no_tra: bool,
 
@@ -158,8 +160,10 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
             let output = arguments.output.as_deref().filter(|_| !arguments.dry_run);
             let wanted = compile_inputs::Wanted {
                 output: output.map(|output| (output, write_options(arguments))),
+                encoding: arguments.encoding.into(),
                 set: &arguments.set,
-                solve: arguments.solve,
+                solve: arguments.solve || arguments.prune,
+                prune: arguments.prune,
                 json: arguments.json,
                 quiet: arguments.quiet,
             };
@@ -167,6 +171,13 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
             return compile_inputs::compile_inputs(sources, &problem, &wanted, notes, start, &bars);
         }
     };
+    if arguments.encoding == EncodingName::Flat {
+        return Err(CliError::Input(
+            "--encoding flat: found a problem whose actions are \"targets\"; expected actions \"inputs\"\n  Here --encoding \
+             plain is flat already: every choice has one interval for each cell."
+                .to_owned(),
+        ));
+    }
     let mut phases = vec![("model file", start.elapsed())];
 
     let mut abstraction =
@@ -253,14 +264,22 @@ fn write_options<'a>(arguments: &CompileArguments) -> WriteOptions<'a> {
 
 /// Replaces the model by what an optimal policy needs of it.
 fn prune(abstraction: &mut Abstraction, bars: &Bars) -> Result<(PropertyResult, PruningReport), CliError> {
+    pruned(&mut abstraction.model, &abstraction.property, bars)
+}
+
+/// Replaces a model by what an optimal policy for a property needs of it.
+pub(super) fn pruned(
+    model: &mut IntervalMdp,
+    property: &Property,
+    bars: &Bars,
+) -> Result<(PropertyResult, PruningReport), CliError> {
     let start = Instant::now();
-    let property = &abstraction.property;
     let limits = LimitArguments::of_epsilon(PRUNING_EPSILON);
-    let pruned = limits.with_options(bars, |options| Pruned::new(&abstraction.model, property, options));
+    let pruned = limits.with_options(bars, |options| Pruned::new(model, property, options));
     let pruned = pruned.map_err(|error| CliError::Failure(format!("--prune: {property}: {error}")))?;
     let result = PropertyResult::new(property, &pruned.after, &pruned.model, start.elapsed());
-    let report = PruningReport::new(property, abstraction.model.size(), &pruned);
-    abstraction.model = pruned.model;
+    let report = PruningReport::new(property, model.size(), &pruned);
+    *model = pruned.model;
     Ok((result, report))
 }
 

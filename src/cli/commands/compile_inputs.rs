@@ -1,26 +1,32 @@
 //! `dynabs-compile` for actions that are inputs.
 
+use super::compile::pruned;
 use crate::input_summary::{InputResult, summary};
 use crate::{Bars, CliError, print, warn};
-use dynabs::abstraction::inputs::{InputAbstraction, InputsError};
+use dynabs::abstraction::inputs::{InputAbstraction, InputEncoding, InputModel, InputsError};
+use dynabs::landing::FlatModelError;
 use dynabs::model_file::Document;
 use dynabs::problem::InputProblem;
-use dynabs::run::{Manifest, WriteOptions, write_input_run};
+use dynabs::run::{Manifest, PruningReport, WriteOptions, write_input_run};
 use imdp::progress::Progress;
 use imdp::solver::SolverOptions;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// What is wanted.
 pub(super) struct Wanted<'a> {
     /// Where to write what.
     pub(super) output: Option<(&'a Path, WriteOptions<'a>)>,
+    /// How choices lead to cells in files.
+    pub(super) encoding: InputEncoding,
     /// What `--set` changed.
     pub(super) set: &'a [String],
     pub(super) solve: bool,
+    /// Whether files keep only what an optimal policy needs.
+    pub(super) prune: bool,
     pub(super) json: bool,
     pub(super) quiet: bool,
 }
@@ -45,9 +51,19 @@ pub(super) fn compile_inputs(
     let mut manifest = Manifest::of_inputs(document, source, problem, &abstraction);
     manifest.set = wanted.set.to_vec();
     manifest.warnings.extend(notes);
+    let exported = export(problem, &abstraction, wanted, bars)?;
+    if let Some(Exported { model, pruning, time }) = &exported {
+        manifest = manifest.with_model(problem, model);
+        if let Some(report) = pruning {
+            manifest.warnings.push(format!("{}; {}", report.kept, report.scope));
+            manifest.pruning = Some(report.clone());
+        }
+        phases.push(("model", *time));
+    }
     if let Some((output, options)) = &wanted.output {
         let writing = Instant::now();
-        manifest = write_input_run(output, document, problem, &abstraction, manifest, options, &**bars)?;
+        let model = exported.as_ref().map(|exported| &exported.model);
+        manifest = write_input_run(output, document, problem, model, manifest, options, &**bars)?;
         phases.push(("files", writing.elapsed()));
     }
     let solving = Instant::now();
@@ -61,7 +77,12 @@ pub(super) fn compile_inputs(
         };
         let solution = abstraction.question().solve(&options);
         let result = InputResult::new(problem, &abstraction, &solution, solving.elapsed());
-        let result = result.with_exported(problem, &abstraction, &options);
+        let result = match &exported {
+            Some(Exported { model, .. }) if model.encoding == InputEncoding::Flat => {
+                result.with_flat(model, &options)?
+            }
+            _ => result.with_exported(problem, &abstraction, &options),
+        };
         bars.finish();
         phases.push(("solving", solving.elapsed()));
         Some(result)
@@ -98,6 +119,40 @@ pub(super) fn compile_inputs(
         print(&text)?;
     }
     Ok(result.map_or(ExitCode::SUCCESS, |result| result.exit_code()))
+}
+
+/// The model that files are to have.
+struct Exported {
+    model: InputModel,
+    pruning: Option<PruningReport>,
+    time: Duration,
+}
+
+/// Makes the model if something is to be done with it.
+fn export(
+    problem: &InputProblem,
+    abstraction: &InputAbstraction,
+    wanted: &Wanted<'_>,
+    bars: &Bars,
+) -> Result<Option<Exported>, CliError> {
+    let is_written = wanted.output.as_ref().is_some_and(|(_, options)| !options.formats.is_empty());
+    let is_looked_at = wanted.prune || wanted.solve && wanted.encoding == InputEncoding::Flat;
+    if !is_written && !is_looked_at {
+        return Ok(None);
+    }
+    let start = Instant::now();
+    let model = abstraction.model(problem.initial_cell(), wanted.encoding);
+    let mut model = model.map_err(|error| match error {
+        FlatModelError::Memory(_) => {
+            CliError::Input(format!("{error}\n  Use --encoding plain, or fewer cells."))
+        }
+        FlatModelError::Model(_) => CliError::Failure(error.to_string()),
+    })?;
+    let pruning = match wanted.prune {
+        true => Some(pruned(&mut model.model, &model.properties[0], bars)?.1),
+        false => None,
+    };
+    Ok(Some(Exported { model, pruning, time: start.elapsed() }))
 }
 
 /// A mistake in the file, or a machine too small.

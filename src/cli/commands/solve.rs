@@ -14,7 +14,7 @@ use imdp::evaluation::{Evaluation, direct};
 use imdp::files::Outputs;
 use imdp::model::IntervalMdp;
 use imdp::progress::Progress;
-use imdp::property::{Inquiry, Property};
+use imdp::property::{Compound, Inquiry, Property};
 use imdp::solver::{Answer, SolverOptions};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -44,7 +44,8 @@ pub struct SolveArguments {
     #[arg(long, value_name = "FILE")]
     policy: Option<PathBuf>,
 
-    /// Write what is needed to check the result again with `verify` (for one property).
+    /// Write what is needed to check the result again with `verify` (for one property). For a directory of actions "inputs"
+    /// it is the model of its files that is solved, not the lattice.
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
 
@@ -93,13 +94,19 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
 pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
     let start = Instant::now();
-    if InputRun::is_in(&arguments.path) && !arguments.explicit && arguments.questions.is_empty() {
+    let is_input_task =
+        InputRun::is_in(&arguments.path) && !arguments.explicit && arguments.questions.is_empty();
+    if is_input_task && arguments.certificate.is_none() {
         return solve_inputs(arguments, &bars);
     }
     let loaded = load(&arguments.path, arguments.explicit, &bars)?;
     let reading = start.elapsed();
-    let questions = arguments.questions.read(&loaded)?;
+    let mut questions = arguments.questions.read(&loaded)?;
     loaded.require_unchanged()?;
+    if is_input_task {
+        // A certificate is about the model of the directory: of its two bounds, the one that a controller guarantees.
+        questions.truncate(1);
+    }
     let outputs = [&arguments.values, &arguments.policy, &arguments.certificate];
     if outputs.into_iter().any(Option::is_some) && questions.len() != 1 {
         let found = questions.len();
@@ -155,19 +162,14 @@ fn solve(
             Ok(result)
         }
         Ok(Inquiry::Compound(compound)) => {
-            if arguments.certificate.is_some() {
-                return Err(CliError::Input(format!(
-                    "--certificate: found {compound}; expected a property of one probability of F, G, U or X, perhaps compared \
-                     with a threshold"
-                )));
-            }
             let start = Instant::now();
             let evaluation = arguments.limits.with_options(bars, |options| {
-                let options = SolverOptions { policy: wanted.policy, ..*options };
+                let options = SolverOptions { policy: wanted.policy, evidence: wanted.evidence, ..*options };
                 Evaluation::new(&loaded.model, compound, nature, &options)
             });
-            let evaluation = evaluation.map_err(|error| CliError::Input(format!("{compound}: {error}")))?;
-            write_evaluation(arguments, loaded, &evaluation)?;
+            let mut evaluation =
+                evaluation.map_err(|error| CliError::Input(format!("{compound}: {error}")))?;
+            write_evaluation(arguments, loaded, compound, &mut evaluation)?;
             let mut result =
                 PropertyResult::of_evaluation(compound, &evaluation, &loaded.model, start.elapsed());
             result.guarantee = loaded.no_claim();
@@ -181,11 +183,12 @@ fn solve(
 fn write_evaluation(
     arguments: &SolveArguments,
     loaded: &LoadedModel,
-    evaluation: &Evaluation,
+    compound: &Compound,
+    evaluation: &mut Evaluation,
 ) -> Result<(), CliError> {
     let mut files = Outputs::default();
     if let Some(path) = &arguments.values {
-        let written = files.write(path, |out| write_evaluated(&loaded.model, evaluation, out));
+        let written = files.write(path, |out| write_evaluated(&loaded.model, &*evaluation, out));
         written.map_err(|error| CliError::writing(path, &error))?;
     }
     if let Some(path) = &arguments.policy {
@@ -199,17 +202,23 @@ fn write_evaluation(
         let written = files.write(path, |out| write_policy(&loaded.model, policy, out));
         written.map_err(|error| CliError::writing(path, &error))?;
     }
+    if let Some(path) = &arguments.certificate {
+        let nature = arguments.questions.nature();
+        let derivation = evaluation.derivation(compound, nature, &loaded.model, loaded.digests()?);
+        let Some(derivation) = derivation else {
+            return Err(CliError::Input(format!(
+                "--certificate: found {compound}, which has a part that nothing proves yet: LTL, automata, an F or U that begins \
+                 after some steps, or a computation that was stopped; expected F, G, U, X and R, perhaps inside of each other"
+            )));
+        };
+        let written = files.write(path, |out| certificate::write_derivation(&derivation, out));
+        written.map_err(|error| CliError::writing(path, &error))?;
+    }
     files.commit().map_err(|error| CliError::Failure(error.to_string()))
 }
 
 /// The task of a run whose actions are inputs, on the lattice itself.
 fn solve_inputs(arguments: &SolveArguments, bars: &Arc<Bars>) -> Result<ExitCode, CliError> {
-    if arguments.certificate.is_some() {
-        return Err(CliError::Input(format!(
-            "--certificate: found the directory {}; expected a model file\n  Compile with --format dynabs and give model.dynabs of that directory.",
-            arguments.path.display()
-        )));
-    }
     bars.catch_interrupts();
     let start = Instant::now();
     let options = SolverOptions {

@@ -1,9 +1,11 @@
 //! `dynabs-check verify`: certificates, checked in exact arithmetic.
 
 use crate::model_source::load;
+use crate::results::number;
 use crate::{Bars, CliError, print, thousands};
 use clap::Args;
-use imdp::certificate::{Certificate, CertificateError, read_file};
+use imdp::certificate::{CertificateError, Statement, read_statement_file};
+use imdp::evaluation::check_derivation;
 use imdp::files::is_fault_of_input;
 use imdp::property::Verdict;
 use imdp::verify::{Proved, Rejection, check};
@@ -38,29 +40,39 @@ pub fn run(arguments: &VerifyArguments) -> Result<ExitCode, CliError> {
     let bars = Bars::new(arguments.quiet);
     let start = Instant::now();
     let shown = arguments.certificate.display();
-    let certificate = read_file(&arguments.certificate).map_err(|error| match error {
+    let statement = read_statement_file(&arguments.certificate).map_err(|error| match error {
         CertificateError::Io(ref io) if !is_fault_of_input(io) => {
             CliError::Failure(format!("{shown}: {error}"))
         }
         _ => CliError::Input(format!("{shown}: {error}")),
     })?;
-    let explicit = certificate.files.iter().any(|file| file.kind == "tra");
+    let files = match &statement {
+        Statement::Probability(certificate) => &certificate.files,
+        Statement::Expression(derivation) => &derivation.files,
+    };
+    let explicit = files.iter().any(|file| file.kind == "tra");
     let loaded = load(&arguments.path, explicit, &bars)?;
     let digests = loaded.digests()?;
-    let outcome = check(&certificate, &loaded.model, &digests);
+    let (asked, outcome) = match &statement {
+        Statement::Probability(certificate) => {
+            (certificate.property.to_string(), check(certificate, &loaded.model, &digests))
+        }
+        Statement::Expression(derivation) => {
+            (derivation.expression.clone(), check_derivation(derivation, &loaded.model, &digests))
+        }
+    };
     if let Err(Rejection::Memory(error)) = outcome {
         return Err(CliError::Input(error.to_string()));
     }
     if arguments.json {
-        print(&format!("{:#}\n", report(&certificate, &outcome, start.elapsed())))?;
+        print(&format!("{:#}\n", report(&asked, &outcome, start.elapsed())))?;
     } else if !arguments.quiet {
-        print(&summary(&certificate, &outcome, start.elapsed()))?;
+        print(&summary(&asked, &outcome, start.elapsed()))?;
     }
     Ok(if outcome.is_ok() { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }
 
-fn summary(certificate: &Certificate, outcome: &Result<Proved, Rejection>, time: Duration) -> String {
-    let property = &certificate.property;
+fn summary(property: &str, outcome: &Result<Proved, Rejection>, time: Duration) -> String {
     match outcome {
         Err(rejection) => format!("{property}\n  rejected   {rejection}\n"),
         Ok(proved) => format!(
@@ -76,12 +88,7 @@ fn summary(certificate: &Certificate, outcome: &Result<Proved, Rejection>, time:
     }
 }
 
-fn report(
-    certificate: &Certificate,
-    outcome: &Result<Proved, Rejection>,
-    time: Duration,
-) -> serde_json::Value {
-    let property = certificate.property.to_string();
+fn report(property: &str, outcome: &Result<Proved, Rejection>, time: Duration) -> serde_json::Value {
     match outcome {
         Err(rejection) => {
             json!({"property": property, "accepted": false, "reason": rejection.to_string()})
@@ -89,8 +96,8 @@ fn report(
         Ok(proved) => json!({
             "property": property,
             "accepted": true,
-            "lower": proved.lower,
-            "upper": proved.upper,
+            "lower": number(proved.lower),
+            "upper": number(proved.upper),
             "verdict": proved.verdict.map(word),
             "states": proved.states,
             "steps": proved.steps,

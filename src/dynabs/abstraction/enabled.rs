@@ -36,7 +36,19 @@ pub fn enabled_actions(
     constraints: &[SteeringConstraint],
     progress: &dyn Progress,
 ) -> EnabledActions {
-    let centers: Vec<Vec<f64>> = grid.axes().iter().map(|axis| axis.centers()).collect();
+    let centers: Vec<_> = grid.axes().iter().map(|axis| axis.centers()).collect();
+    enabled_around(&centers, grid, cells, targets, constraints, progress)
+}
+
+/// The same for those who ask about a few cells at a time: `centers` are those of all cells, by dimension.
+pub(super) fn enabled_around(
+    centers: &[Vec<f64>],
+    grid: &Grid,
+    cells: &[CellId],
+    targets: &Targets,
+    constraints: &[SteeringConstraint],
+    progress: &dyn Progress,
+) -> EnabledActions {
     let half_widths: Vec<f64> =
         grid.axes().iter().map(|axis| 0.5 * imdp::numeric::to_f64_up(axis.width())).collect();
     let scan = Scan::new(targets, constraints);

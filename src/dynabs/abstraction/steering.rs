@@ -1,7 +1,7 @@
 //! Targets, the law that steers to them, and where it may be used: what samples have no part in.
 
 use super::AbstractionError;
-use super::enabled::{EnabledActions, enabled_actions};
+use super::enabled::{EnabledActions, enabled_around};
 use super::targets::Targets;
 use crate::partition::{CellId, CellKind};
 use crate::problem::{Actions, Problem};
@@ -35,6 +35,8 @@ pub(super) struct Steering {
     pub(super) law: FeedbackLaw,
     pub(super) extent: Extent,
     constraints: Vec<SteeringConstraint>,
+    /// Those of the cells, by dimension.
+    centers: Vec<Vec<f64>>,
 }
 
 impl Steering {
@@ -47,7 +49,8 @@ impl Steering {
         let extent = Extent { state: problem.grid().magnitudes(), target: targets.magnitudes() };
         let constraints =
             law.constraints(problem.input(), layers.map(|layers| layers.abstract_input()), &extent);
-        Ok(Self { targets, law, extent, constraints })
+        let centers = problem.grid().axes().iter().map(|axis| axis.centers()).collect();
+        Ok(Self { targets, law, extent, constraints, centers })
     }
 
     /// The actions that the law allows in each of `cells`.
@@ -57,6 +60,6 @@ impl Steering {
         cells: &[CellId],
         progress: &dyn Progress,
     ) -> EnabledActions {
-        enabled_actions(problem.grid(), cells, &self.targets, &self.constraints, progress)
+        enabled_around(&self.centers, problem.grid(), cells, &self.targets, &self.constraints, progress)
     }
 }

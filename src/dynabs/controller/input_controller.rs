@@ -39,7 +39,13 @@ impl InputController {
     /// Refines the policy of `solution` to a problem.
     pub fn new(problem: &InputProblem, abstraction: &InputAbstraction, solution: &LandingSolution) -> Self {
         let grid = problem.grid();
-        let pairs = problem.cell_task().memories() * grid.num_cells();
+        let cells = grid.num_cells();
+        let pairs = problem.cell_task().memories() * cells;
+        // Where the task is taken for lost nothing is decided.
+        let changes = |pair: u32| match problem.cell_task().kind(CellId(pair % cells)) {
+            CellKind::Unsafe => &[],
+            CellKind::Ordinary | CellKind::Goal => solution.policy.changes(StateId(pair)),
+        };
         let period = |(axis, &periodic): (&crate::partition::GridAxis, &bool)| {
             if periodic { to_f64(&(axis.upper() - axis.lower())) } else { 0.0 }
         };
@@ -56,7 +62,7 @@ impl InputController {
             num_inputs: problem.mode().num_inputs(),
             feedback: problem.feedback().clone(),
             centers: grid.axes().iter().map(|axis| axis.centers()).collect(),
-            schedule: Schedule::of_cells((0..pairs).map(|pair| solution.policy.changes(StateId(pair)))),
+            schedule: Schedule::of_cells((0..pairs).map(changes)),
             initial: Bound {
                 initial_state: problem.initial_state().map(<[f64]>::to_vec),
                 bound: initial.iter().map(|&cell| lower[cell as usize]).fold(1.0, f64::min),

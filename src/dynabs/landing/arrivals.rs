@@ -1,7 +1,8 @@
 //! Which state of the model a run arrives in.
 
+use super::layers::push_any;
 use crate::task::{CellTask, Standing};
-use imdp::model::StateId;
+use imdp::model::{Rows, StateId};
 use std::collections::HashMap;
 
 /// Everything that failed.
@@ -20,7 +21,7 @@ pub(super) struct Arrivals {
     /// The state after those of memories in cells.
     pub(super) pairs_end: usize,
     /// What nature picks from, by state from `pairs_end` on.
-    pub(super) picks: Vec<Vec<StateId>>,
+    picks: Vec<Vec<StateId>>,
     /// The state after the last of those.
     pub(super) end: usize,
     /// By the memory before and cell: where a run arrives.
@@ -73,5 +74,10 @@ impl Arrivals {
             .collect();
         let at_start = cells.map(|cell| states(None, cell)).collect();
         Self { first, pairs_end, end: pairs_end + picks.len(), picks, of_cell, at_start }
+    }
+
+    /// Adds the rows of the states in which nature picks.
+    pub(super) fn push_picks(&self, rows: &mut Rows) {
+        self.picks.iter().for_each(|states| push_any(rows, states.clone()));
     }
 }

@@ -1,6 +1,7 @@
 //! Where the images of all cells and inputs lie on the lattice.
 
 use super::arrays::Arrays;
+use super::axis::Axis;
 use super::layout::Layout;
 use super::side::Side;
 use rayon::prelude::*;
@@ -134,6 +135,17 @@ impl Images {
         self.len() == 0
     }
 
+    /// Whether some image of an enabled pair has a sub-cell that belongs to a cell.
+    pub fn some_meet_cells(&self, axes: &[Axis]) -> bool {
+        self.all().any(|(.., image)| {
+            let sides = self.sub_cells(image);
+            axes.iter().zip(sides).all(|(axis, (first, size))| {
+                let first = axis.first + i64::from(first);
+                axis.periodic || first + i64::from(size) > 0 && first < axis.sub_cells()
+            })
+        })
+    }
+
     /// The images of all enabled pairs, by cell and input: the cell, the input, and what [`Images::sub_cells`] takes.
     pub(super) fn all(&self) -> impl Iterator<Item = (u32, u32, (u32, u16))> + '_ {
         let pair = |i: usize| (self.cells[i / self.inputs], (i % self.inputs) as u32, self.image(i));
@@ -147,6 +159,20 @@ impl Images {
 
     fn image(&self, i: usize) -> (u32, u16) {
         (self.at[i], self.shapes.get(i).copied().unwrap_or_default())
+    }
+
+    /// The extrema over some images, given the values of all sub-cells.
+    pub(super) fn extrema<S: Side>(
+        &self,
+        landed: Vec<f64>,
+        images: &[(u32, u16)],
+        arrays: &Arrays,
+    ) -> Vec<f64> {
+        let worth = self.layout.gather::<S>(landed, arrays);
+        let of_image = |&image: &(u32, u16)| self.layout.extremum::<S>(&worth, image);
+        let extrema = images.par_iter().with_min_len(BLOCK).map(of_image).collect();
+        arrays.keep(worth);
+        extrema
     }
 
     /// The extrema over all images, given the values of all sub-cells: by cell, the greatest over its inputs and the

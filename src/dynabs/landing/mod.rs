@@ -17,6 +17,7 @@
 mod arrays;
 mod arrivals;
 mod axis;
+mod flat;
 mod gather;
 mod images;
 mod invariant;
@@ -40,6 +41,7 @@ mod tests;
 mod weights;
 
 pub use axis::Axis;
+pub use flat::FlatModelError;
 pub use images::{ImageSource, Images, LandingError, occurring};
 pub use layout::Layout;
 pub use model::LandingModel;

@@ -36,12 +36,17 @@ impl Question<'_> {
     /// # Errors
     /// [`ImdpError`] if the parts do not make a model: a mistake in this program.
     pub fn model(&self, initial: &[u32]) -> Result<LandingModel, ImdpError> {
+        self.with_clock(|question| question.model_of_memories(initial))
+    }
+
+    /// The same question with memories that count the steps, if the task is decided at its last one only.
+    pub(super) fn with_clock<T>(&self, use_it: impl FnOnce(&Question<'_>) -> T) -> T {
         match (self.task.aim(), self.steps) {
             (Aim::End, Some(steps)) => {
                 let task = self.task.clocked(steps);
-                Question { task: &task, ..*self }.model_of_memories(initial)
+                use_it(&Question { task: &task, ..*self })
             }
-            _ => self.model_of_memories(initial),
+            _ => use_it(self),
         }
     }
 
@@ -51,11 +56,8 @@ impl Question<'_> {
     }
 
     fn model_of_memories(&self, initial: &[u32]) -> Result<LandingModel, ImdpError> {
-        let can_be_done = self.task.aim() == Aim::Reach || self.task.can_be_done();
-        let heads: u32 = if can_be_done { 3 } else { 2 };
-        let pairs = self.pairs();
-        let arrivals = Arrivals::new(self.task, &pairs, heads);
-        let ranges = Ranges::new(self.images);
+        let skeleton = Skeleton::new(self);
+        let Skeleton { arrivals, ranges, .. } = &skeleton;
         let mut start = arrivals.end;
         let mut layers = vec![];
         for of_cell in &arrivals.of_cell {
@@ -64,24 +66,81 @@ impl Question<'_> {
             layers.push((start, Layers::new(self.landing, first, outcomes)));
             start = layers.last().map_or(first, |(_, layers)| layers.end());
         }
-        let states = start;
-
-        let mut rows = Rows::new();
-        push_any(&mut rows, vec![FAILED, if can_be_done { REACHED } else { LOST }]);
+        let mut rows = skeleton.first_row();
         for (start, _) in &layers {
             (0..ranges.places.len())
                 .for_each(|range| push_any(&mut rows, vec![StateId::from_index(start + range)]));
         }
-        arrivals.picks.iter().for_each(|states| push_any(&mut rows, states.clone()));
+        arrivals.push_picks(&mut rows);
         for (_, layers) in &layers {
             ranges.places.iter().for_each(|place| push_any(&mut rows, self.sub_cells(layers, place)));
             layers.push_rows(&mut rows);
         }
+        skeleton.finish(rows, start, initial, self.micro_steps())
+    }
 
+    /// The states of the sub-cells of a box.
+    fn sub_cells(&self, layers: &Layers<'_>, sides: &[(u32, u32)]) -> Vec<StateId> {
+        let lens: Vec<usize> = self.landing.axes().iter().map(|axis| axis.len).collect();
+        let count: usize = sides.iter().map(|&(_, size)| size as usize).product();
+        let place = |mut index: usize| {
+            let mut place = vec![0; lens.len()];
+            for (j, &(first, size)) in sides.iter().enumerate().rev() {
+                place[j] = (first as usize + index % size as usize) % lens[j];
+                index /= size as usize;
+            }
+            layers.of_sub_cell(&place)
+        };
+        (0..count).map(place).collect()
+    }
+}
+
+/// What models of a task have in common: who decides what, in which states.
+pub(super) struct Skeleton {
+    /// Whether there is a state `reached`.
+    pub(super) can_be_done: bool,
+    inputs: usize,
+    /// By memory, the cells in which something can be done with it, ascending.
+    pairs: Vec<Vec<u32>>,
+    pub(super) arrivals: Arrivals,
+    pub(super) ranges: Ranges,
+}
+
+impl Skeleton {
+    pub(super) fn new(question: &Question<'_>) -> Self {
+        let can_be_done = question.task.aim() == Aim::Reach || question.task.can_be_done();
+        let pairs = question.pairs();
+        Self {
+            can_be_done,
+            inputs: question.images.inputs(),
+            arrivals: Arrivals::new(question.task, &pairs, if can_be_done { 3 } else { 2 }),
+            ranges: Ranges::new(question.images),
+            pairs,
+        }
+    }
+
+    /// The first row of all: that of noise which is not listed.
+    pub(super) fn first_row(&self) -> Rows {
+        let mut rows = Rows::new();
+        push_any(&mut rows, vec![FAILED, if self.can_be_done { REACHED } else { LOST }]);
+        rows
+    }
+
+    /// The model whose rows are the first one, those of the ranges of every memory, and those of all states after the
+    /// pairs.
+    pub(super) fn finish(
+        &self,
+        rows: Rows,
+        states: usize,
+        initial: &[u32],
+        micro_steps: u64,
+    ) -> Result<LandingModel, ImdpError> {
+        let Self { can_be_done, inputs, pairs, arrivals, ranges } = self;
+        let heads = if *can_be_done { 3 } else { 2 };
         let mut choices = ChoicesBuilder::with_capacity(states);
         let mut ids = vec![];
         let one = |row: usize| RowRange { first: RowId::from_index(row), last: RowId::from_index(row) };
-        for head in StateId::first(heads as usize) {
+        for head in StateId::first(heads) {
             if head == LOST {
                 choices.push_range(one(0));
                 choices.finish_state();
@@ -90,7 +149,6 @@ impl Question<'_> {
             }
             ids.push(ActionNames::UNNAMED);
         }
-        let inputs = self.images.inputs();
         for (memory, open) in pairs.iter().enumerate() {
             let mut enabled = ranges.of_pairs.iter().peekable();
             for &cell in open {
@@ -124,29 +182,14 @@ impl Question<'_> {
             rows,
             choices: choices.finish(),
             actions: ActionNames::OfChoice {
-                names: (0..inputs).map(|input| format!("u_{input}")).collect(),
+                names: (0..*inputs).map(|input| format!("u_{input}")).collect(),
                 ids,
             },
             initial: set(states, starts),
             labels,
             variables: StateVariables::default(),
         })?;
-        Ok(LandingModel { model, of_cell: arrivals.at_start, micro_steps: self.micro_steps() })
-    }
-
-    /// The states of the sub-cells of a box.
-    fn sub_cells(&self, layers: &Layers<'_>, sides: &[(u32, u32)]) -> Vec<StateId> {
-        let lens: Vec<usize> = self.landing.axes().iter().map(|axis| axis.len).collect();
-        let count: usize = sides.iter().map(|&(_, size)| size as usize).product();
-        let place = |mut index: usize| {
-            let mut place = vec![0; lens.len()];
-            for (j, &(first, size)) in sides.iter().enumerate().rev() {
-                place[j] = (first as usize + index % size as usize) % lens[j];
-                index /= size as usize;
-            }
-            layers.of_sub_cell(&place)
-        };
-        (0..count).map(place).collect()
+        Ok(LandingModel { model, of_cell: arrivals.at_start.clone(), micro_steps })
     }
 }
 
@@ -157,9 +200,11 @@ fn set(states: usize, members: impl IntoIterator<Item = StateId>) -> StateSet {
 }
 
 /// The distinct images.
-struct Ranges {
+pub(super) struct Ranges {
     /// By coordinate, where the box begins and how many sub-cells it has; ordered by sizes, then by beginnings.
     places: Vec<Vec<(u32, u32)>>,
+    /// What [`Images`] calls them.
+    pub(super) images: Vec<(u32, u16)>,
     /// `(cell, input, range)`, ascending.
     of_pairs: Vec<(u32, u32, u32)>,
 }
@@ -177,7 +222,9 @@ impl Ranges {
         let of_pairs = images
             .all()
             .map(|(cell, input, image)| (cell, input, numbers.get(&image).copied().unwrap_or_default()));
-        Self { of_pairs: of_pairs.collect(), places: boxes.into_iter().map(|(sides, _)| sides).collect() }
+        let of_pairs = of_pairs.collect();
+        let (places, images) = boxes.into_iter().unzip();
+        Self { of_pairs, places, images }
     }
 }
 

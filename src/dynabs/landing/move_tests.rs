@@ -144,7 +144,8 @@ fn noise_in_boxes_has_its_value() {
             (false, true) => CellKind::Ordinary,
             (false, false) => CellKind::Unsafe,
         };
-        let task = &CellTask::of_kinds(Aim::Reach, (0..goal.len()).map(kind));
+        let kinds: Vec<CellKind> = (0..goal.len()).map(kind).collect();
+        let task = &CellTask::of_kinds(Aim::Reach, &kinds, &kinds);
         let question = Question { landing: &landing, images: &images, open, task, steps: Some(2) };
         let solution = question.solve(&SolverOptions::default());
         for (lower, bounds) in [(true, &solution.values.lower), (false, &solution.values.upper)] {

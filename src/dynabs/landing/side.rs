@@ -139,3 +139,47 @@ impl Side for Upper {
         b.total_cmp(&a)
     }
 }
+
+/// Positive for whatever listed noise can lead to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Listed;
+
+impl Side for Listed {
+    const UNLISTED: f64 = 0.0;
+
+    fn of(a: f64, b: f64) -> f64 {
+        Upper::of(a, b)
+    }
+
+    fn outward(terms: usize) -> f64 {
+        Upper::outward(terms)
+    }
+
+    fn above_underflow(value: f64) -> f64 {
+        Upper::above_underflow(value)
+    }
+
+    fn add(a: f64, b: f64) -> f64 {
+        Upper::add(a, b)
+    }
+
+    fn slack(slack: Slack) -> f64 {
+        Upper::slack(slack)
+    }
+
+    fn less(mass: f64, taken: f64) -> f64 {
+        Upper::less(mass, taken)
+    }
+
+    fn room(sum: f64, terms: usize) -> f64 {
+        Upper::room(sum, terms)
+    }
+
+    fn shift(value: f64, error: f64) -> f64 {
+        Upper::shift(value, error)
+    }
+
+    fn worst_first(a: f64, b: f64) -> Ordering {
+        Upper::worst_first(a, b)
+    }
+}

@@ -122,6 +122,11 @@ impl Landing {
         values
     }
 
+    /// The extremum over each of some images for the values of all cells.
+    pub(super) fn extrema<S: Side>(&self, images: &Images, of: &[(u32, u16)], of_cells: &[f64]) -> Vec<f64> {
+        images.extrema::<S>(self.values::<S>(of_cells), of, &self.arrays)
+    }
+
     /// The best input of every cell for the values of all cells.
     pub fn best<S: Side>(&self, images: &Images, of_cells: &[f64]) -> Best {
         let mut best = Best { values: vec![0.0; of_cells.len()], inputs: vec![NO_CHOICE; of_cells.len()] };

@@ -40,7 +40,8 @@ impl Game {
             (false, true) => CellKind::Ordinary,
             (false, false) => CellKind::Unsafe,
         };
-        CellTask::of_kinds(self.aim, (0..self.goal.len()).map(kind))
+        let kinds: Vec<CellKind> = (0..self.goal.len()).map(kind).collect();
+        CellTask::of_kinds(self.aim, &kinds, &kinds)
     }
 }
 

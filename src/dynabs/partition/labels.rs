@@ -67,6 +67,35 @@ impl CellLabels {
         labels
     }
 
+    /// What states of the cells may mean, at best: `Goal` if it meets one of `goal`, `Unsafe` if contained in the union of
+    /// `unsafe_`.
+    ///
+    /// The boxes of the two lists must not overlap each other.
+    pub fn at_best(grid: &Grid, goal: &[Region], unsafe_: &[Region]) -> Self {
+        let mut labels = Self::new(grid, unsafe_, goal);
+        for kind in &mut labels.kinds {
+            *kind = match kind {
+                CellKind::Ordinary => CellKind::Ordinary,
+                CellKind::Goal => CellKind::Unsafe,
+                CellKind::Unsafe => CellKind::Goal,
+            };
+        }
+        labels
+    }
+
+    /// The same for a task that is to stay somewhere: `Unsafe` unless it meets one of `safe`, which is everything if
+    /// empty, and is not contained in the union of `unsafe_`; `Ordinary` elsewhere.
+    pub fn staying_at_best(grid: &Grid, safe: &[Region], unsafe_: &[Region]) -> Self {
+        let met = Self::new(grid, &[], safe);
+        let mut labels = Self::at_best(grid, &[], unsafe_);
+        for (kind, met) in labels.kinds.iter_mut().zip(met.kinds) {
+            if !safe.is_empty() && met != CellKind::Unsafe {
+                *kind = CellKind::Unsafe;
+            }
+        }
+        labels
+    }
+
     /// These kinds, one per cell.
     pub fn from_kinds(kinds: Vec<CellKind>) -> Self {
         Self { kinds }
@@ -80,6 +109,11 @@ impl CellLabels {
     /// How many cells are of this kind.
     pub fn count(&self, kind: CellKind) -> usize {
         self.kinds.iter().filter(|&&k| k == kind).count()
+    }
+
+    /// The kinds, in row-major order of the cells.
+    pub fn kinds(&self) -> &[CellKind] {
+        &self.kinds
     }
 
     /// All cells with their kinds, in row-major order.
@@ -283,6 +317,9 @@ mod tests {
             });
             let goal_labels = CellLabels::new(&grid, &goal, &[]);
             let unsafe_labels = CellLabels::new(&grid, &[], &goal);
+            let perhaps_goal = CellLabels::at_best(&grid, &goal, &[]);
+            let surely_unsafe = CellLabels::at_best(&grid, &[], &goal);
+            let [safe, perhaps_safe] = [CellLabels::staying, CellLabels::staying_at_best].map(|of| of(&grid, &goal, &[]));
             for cx in 0..4 {
                 for cy in 0..4 {
                     let cell = grid.cell(&[cx, cy]);
@@ -291,6 +328,10 @@ mod tests {
                     }).collect();
                     prop_assert_eq!(goal_labels.kind(cell) == CellKind::Goal, points.iter().all(|&p| p));
                     prop_assert_eq!(unsafe_labels.kind(cell) == CellKind::Unsafe, points.iter().any(|&p| p));
+                    prop_assert_eq!(perhaps_goal.kind(cell) == CellKind::Goal, points.iter().any(|&p| p));
+                    prop_assert_eq!(surely_unsafe.kind(cell) == CellKind::Unsafe, points.iter().all(|&p| p));
+                    prop_assert_eq!(safe.kind(cell) == CellKind::Ordinary, points.iter().all(|&p| p));
+                    prop_assert_eq!(perhaps_safe.kind(cell) == CellKind::Ordinary, points.iter().any(|&p| p));
                 }
             }
         }

@@ -355,9 +355,13 @@ fn cell_task(
     unsafe_: &[Region],
     grid: &Grid,
 ) -> Result<(CellLabels, CellTask), Diagnostic> {
-    let labels = match objective {
-        Objective::Reach { goal } => CellLabels::new(grid, goal, unsafe_),
-        Objective::Stay { safe } => CellLabels::staying(grid, safe, unsafe_),
+    let (labels, best) = match objective {
+        Objective::Reach { goal } => {
+            (CellLabels::new(grid, goal, unsafe_), CellLabels::at_best(grid, goal, unsafe_))
+        }
+        Objective::Stay { safe } => {
+            (CellLabels::staying(grid, safe, unsafe_), CellLabels::staying_at_best(grid, safe, unsafe_))
+        }
         Objective::Automaton(task) => {
             let cells = CellTask::of_automaton(task, grid);
             if task.aim() == task::Aim::Reach && !cells.can_be_done() {
@@ -370,7 +374,7 @@ fn cell_task(
             return Ok((CellLabels::from_kinds(kinds), cells));
         }
     };
-    let task = CellTask::of_kinds(objective.aim(), labels.iter().map(|(_, kind)| kind));
+    let task = CellTask::of_kinds(objective.aim(), labels.kinds(), best.kinds());
     Ok((labels, task))
 }
 

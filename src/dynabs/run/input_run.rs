@@ -6,14 +6,13 @@ use super::error::OpenError;
 use super::manifest::{GroupedHorizon, InputFile, Manifest};
 use super::open::problem_document;
 use super::staging::{RunDirectoryError, Staging};
-use super::write::{WriteOptions, self_contained, write_samples};
-use crate::abstraction::inputs::InputAbstraction;
+use super::write::{WriteOptions, begin_with_model, self_contained, write_samples};
+use crate::abstraction::inputs::{InputAbstraction, InputEncoding, InputModel};
 use crate::guarantee::{Event, Guarantee};
-use crate::landing::{LandingModel, LandingSolution};
+use crate::landing::LandingSolution;
 use crate::model_file::{Document, StatedProblem};
 use crate::problem::{InputProblem, Objective, SampledNoise};
-use imdp::formats::umb::Compression;
-use imdp::formats::{Format, ModelWriter, native, sha256_hex};
+use imdp::formats::{native, sha256_hex};
 use imdp::progress::Progress;
 use imdp::property::{Probability, Resolution};
 use imdp::solver::SolverOptions;
@@ -121,7 +120,35 @@ impl Manifest {
     }
 }
 
-/// Writes the directory `target`: problem, properties, manifest, and the model in the formats asked for.
+impl Manifest {
+    /// The same, with what is true of the model that files have.
+    pub fn with_model(mut self, problem: &InputProblem, exported: &InputModel) -> Self {
+        let size = exported.model.size();
+        self.states = size.states;
+        self.choices = size.choices;
+        self.transitions = size.transitions;
+        self.rows = size.rows;
+        self.row_entries = size.entries;
+        self.initial_model_state =
+            problem.initial_cell().and_then(|cell| match exported.of_cell[cell.index()][..] {
+                [state] => Some(state),
+                _ => None,
+            });
+        self.micro_steps = Some(exported.micro_steps);
+        self.encoding = match exported.encoding {
+            InputEncoding::Landing => None,
+            InputEncoding::Flat => Some("flat".into()),
+        };
+        self.property = exported.properties[0].to_string();
+        if let Some(horizon) = &mut self.horizon {
+            horizon.model_steps = horizon.original_steps.saturating_mul(exported.micro_steps);
+        }
+        self
+    }
+}
+
+/// Writes the directory `target`: problem, properties, manifest, and the model, if there is one, natively and in the formats
+/// asked for.
 ///
 /// Returns the manifest with the list of files. Either all files appear or none.
 ///
@@ -131,43 +158,25 @@ pub fn write_input_run(
     target: &Path,
     document: &Document,
     problem: &InputProblem,
-    abstraction: &InputAbstraction,
+    exported: Option<&InputModel>,
     mut manifest: Manifest,
     options: &WriteOptions,
     progress: &dyn Progress,
 ) -> Result<Manifest, RunDirectoryError> {
-    let mut staging = Staging::begin(target, options.force)?;
-    if !options.formats.is_empty() {
-        let LandingModel { model, of_cell, .. } =
-            abstraction.exported().model(&abstraction.initial(problem.initial_cell()))?;
-        let size = model.size();
-        manifest.states = size.states;
-        manifest.choices = size.choices;
-        manifest.transitions = size.transitions;
-        manifest.rows = size.rows;
-        manifest.row_entries = size.entries;
-        manifest.initial_model_state =
-            problem.initial_cell().and_then(|cell| match of_cell[cell.index()][..] {
-                [state] => Some(state),
-                _ => None,
-            });
-        for format in Format::ALL.into_iter().filter(|format| options.formats.contains(format)) {
-            if format == Format::Native {
-                staging.write(NATIVE_MODEL, |out| native::write(&model, out))?;
-                continue;
-            }
-            let writer = ModelWriter::new(&model, format, Compression::Gzip)?;
-            staging.require_space(writer.bytes())?;
-            for extension in writer.extensions() {
-                staging.write(&format!("model.{extension}"), |out| writer.write(extension, out, progress))?;
-            }
+    let mut staging = match exported {
+        None => Staging::begin(target, options.force)?,
+        Some(InputModel { model, properties, .. }) => {
+            // What pruning leaves has the lower bound only.
+            let asked = if manifest.pruning.is_some() { &properties[..1] } else { &properties[..] };
+            let (mut staging, row_states) = begin_with_model(target, model, asked, options, progress)?;
+            manifest.row_states = row_states;
+            staging.write(NATIVE_MODEL, |out| native::write(model, out))?;
+            staging.write("model.props", |out| {
+                asked.iter().try_for_each(|property| writeln!(out, "{property}"))
+            })?;
+            staging
         }
-        staging.write("model.props", |out| {
-            [Resolution::Pmaxmin, Resolution::Pmaxmax]
-                .into_iter()
-                .try_for_each(|resolution| writeln!(out, "{}", abstraction.property(resolution)))
-        })?;
-    }
+    };
     let samples = problem.noise().samples().map(|samples| &samples.noise);
     let is_file = samples.and_then(SampledNoise::file).is_some();
     let value = self_contained(with_automaton(document.value.clone(), problem.objective()), is_file);

@@ -51,6 +51,9 @@ pub struct Manifest {
     /// How many steps of the model are one step of the system, where actions are inputs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub micro_steps: Option<u64>,
+    /// How choices lead to cells in the model's files, where actions are inputs and it is not by the states of the lattice.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub encoding: Option<String>,
     /// The task as a property.
     pub property: String,
     /// The threshold asked for.
@@ -147,6 +150,7 @@ impl Manifest {
                 .map(|steps| GroupedHorizon { model_steps: steps, original_steps: steps * d }),
             group_steps: d,
             micro_steps: None,
+            encoding: None,
             property: abstraction.property.to_string(),
             threshold: problem.threshold().map(Probability::to_f64),
             initial_state: problem.initial_state().map(<[f64]>::to_vec),
@@ -187,6 +191,7 @@ impl Manifest {
             horizon: None,
             group_steps: 1,
             micro_steps: None,
+            encoding: None,
             property: String::new(),
             threshold: None,
             initial_state: None,

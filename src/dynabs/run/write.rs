@@ -11,7 +11,9 @@ use crate::problem::{Problem, SampledNoise};
 use imdp::formats::row_states::RowStates;
 use imdp::formats::umb::Compression;
 use imdp::formats::{Encoding, Format, ModelWriter, native};
+use imdp::model::IntervalMdp;
 use imdp::progress::Progress;
+use imdp::property::Property;
 use imdp::solution_file;
 use imdp::solver::Solution;
 use serde_json::Value;
@@ -47,6 +49,34 @@ pub fn write_run(
     progress: &dyn Progress,
 ) -> Result<Manifest, RunDirectoryError> {
     let model = &abstraction.model;
+    let asked = std::slice::from_ref(&abstraction.property);
+    let (mut staging, row_states) = begin_with_model(target, model, asked, &options, progress)?;
+    manifest.row_states = row_states;
+    staging.write(NATIVE_MODEL, |out| native::write(model, out))?;
+    if let Some(solution) = options.solution.filter(|solution| is_final(solution)) {
+        let model = staging.files().iter().find(|file| file.name == NATIVE_MODEL);
+        let sha256 = model.map_or_else(String::new, |file| file.sha256.clone());
+        staging.write(SOLUTION, |out| solution_file::write(&abstraction.property, &sha256, solution, out))?;
+    }
+    staging.write("model.props", |out| writeln!(out, "{}", abstraction.property))?;
+    let is_file = problem.noise().file().is_some();
+    staging
+        .write(PROBLEM, |out| out.write_all(self_contained(document.value.clone(), is_file).as_bytes()))?;
+    staging.write(NOISE, |out| write_samples(problem.noise(), out))?;
+    manifest.outputs = staging.files().to_vec();
+    staging.commit(&manifest)?;
+    Ok(manifest)
+}
+
+/// Begins a directory with the model in the formats asked for, but for the native one, and what is asked of it if rows
+/// become states; nothing is begun if the model has no such format.
+pub(super) fn begin_with_model(
+    target: &Path,
+    model: &IntervalMdp,
+    asked: &[Property],
+    options: &WriteOptions<'_>,
+    progress: &dyn Progress,
+) -> Result<(Staging, Option<RowStatesReport>), RunDirectoryError> {
     let encoded = match options.encoding {
         Encoding::Rows => Some(RowStates::new(model)?),
         Encoding::Plain => None,
@@ -68,25 +98,14 @@ pub fn write_run(
             progress.finish();
         }
     }
-    if let Some(encoded) = encoded.as_ref().filter(|_| !writers.is_empty()) {
-        let property = encoded.translate(&abstraction.property)?;
-        staging.write("rows.props", |out| writeln!(out, "{property}"))?;
-        manifest.row_states = Some(RowStatesReport::new(encoded, property));
-    }
-    staging.write(NATIVE_MODEL, |out| native::write(model, out))?;
-    if let Some(solution) = options.solution.filter(|solution| is_final(solution)) {
-        let model = staging.files().iter().find(|file| file.name == NATIVE_MODEL);
-        let sha256 = model.map_or_else(String::new, |file| file.sha256.clone());
-        staging.write(SOLUTION, |out| solution_file::write(&abstraction.property, &sha256, solution, out))?;
-    }
-    staging.write("model.props", |out| writeln!(out, "{}", abstraction.property))?;
-    let is_file = problem.noise().file().is_some();
-    staging
-        .write(PROBLEM, |out| out.write_all(self_contained(document.value.clone(), is_file).as_bytes()))?;
-    staging.write(NOISE, |out| write_samples(problem.noise(), out))?;
-    manifest.outputs = staging.files().to_vec();
-    staging.commit(&manifest)?;
-    Ok(manifest)
+    let Some(encoded) = encoded.as_ref().filter(|_| !writers.is_empty()) else {
+        return Ok((staging, None));
+    };
+    let properties: Vec<String> =
+        asked.iter().map(|property| encoded.translate(property)).collect::<Result<_, _>>()?;
+    staging.write("rows.props", |out| properties.iter().try_for_each(|text| writeln!(out, "{text}")))?;
+    let first = properties.into_iter().next().unwrap_or_default();
+    Ok((staging, Some(RowStatesReport::new(encoded, first))))
 }
 
 /// The samples as they were read, or drawn.

@@ -54,21 +54,32 @@ pub struct Letters {
 
 impl CellTask {
     /// A task with a single memory: it is done in goal cells and has failed in unsafe ones.
-    pub fn of_kinds(aim: Aim, kinds: impl IntoIterator<Item = CellKind>) -> Self {
-        let number = |kind| match kind {
-            CellKind::Ordinary => 0,
-            CellKind::Goal => 1,
-            CellKind::Unsafe => 2,
+    ///
+    /// A cell that a region's face cuts has two kinds, for its worst state and for its best one: nature picks from what
+    /// lies between.
+    pub fn of_kinds(aim: Aim, worst: &[CellKind], best: &[CellKind]) -> Self {
+        let all = [Standing::Failed, Standing::Open(0), Standing::Reached];
+        let place = |kind: CellKind| match kind {
+            CellKind::Unsafe => 0,
+            CellKind::Ordinary => 1,
+            CellKind::Goal => 2,
         };
-        let classes = [Standing::Open(0), Standing::Reached, Standing::Failed].map(|standing| Class {
-            standings: vec![vec![standing]; 2],
-            open: if standing == Standing::Open(0) { vec![0] } else { vec![] },
-        });
+        let mut ends = vec![(1, 1), (2, 2), (0, 0)];
+        let mut number = |(&worst, &best): (&CellKind, &CellKind)| {
+            let of_cell = (place(worst), place(best));
+            ends.iter().position(|&other| other == of_cell).unwrap_or_else(|| {
+                ends.push(of_cell);
+                ends.len() - 1
+            }) as u32
+        };
+        let class_of = worst.iter().zip(best).map(&mut number).collect();
+        let between =
+            |&(worst, best): &(usize, usize)| Class::new(vec![all[worst..=best.max(worst)].to_vec(); 2]);
         Self {
             aim,
             accepting: vec![aim != Aim::Reach],
-            class_of: kinds.into_iter().map(number).collect(),
-            classes: classes.into(),
+            class_of,
+            classes: ends.iter().map(between).collect(),
             letters: None,
         }
     }
@@ -209,10 +220,12 @@ impl CellTask {
         self.class_of[cell.index()]
     }
 
-    /// What a cell means to the task, whatever the memory.
+    /// What a cell means to a run that arrives there, whatever the memory: where no letter says more, the worst.
     pub fn kind(&self, cell: CellId) -> CellKind {
         let class = &self.classes[self.class_of[cell.index()] as usize];
-        let all = |standing| class.standings.iter().flatten().all(|&found| found == standing);
+        let seen = if self.letters.is_some() { usize::MAX } else { 1 };
+        let all =
+            |standing| class.standings.iter().all(|of| of.iter().take(seen).all(|&found| found == standing));
         if all(Standing::Reached) {
             CellKind::Goal
         } else if all(Standing::Failed) {
@@ -319,6 +332,27 @@ mod tests {
         assert_eq!([cells.open(0), cells.open(1), cells.open(3)], [&[0][..], &[0, 1], &[1]]);
         assert!(cells.is_ambiguous() && cells.can_be_done());
         assert_eq!(cells.kind(CellId(3)), CellKind::Ordinary);
+    }
+
+    #[test]
+    fn nature_picks_between_the_worst_and_the_best_kind() {
+        use CellKind::{Goal, Ordinary, Unsafe};
+        use Standing::{Failed, Open, Reached};
+        let (worst, best) = (
+            [Ordinary, Goal, Unsafe, Ordinary, Unsafe, Unsafe],
+            [Ordinary, Goal, Unsafe, Goal, Ordinary, Goal],
+        );
+        let cells = CellTask::of_kinds(Aim::Reach, &worst, &best);
+        let between = |cell| cells.standings(Some(0), cell);
+        assert_eq!([between(0), between(1), between(2)], [&[Open(0)], &[Reached], &[Failed]]);
+        assert_eq!(between(3), [Open(0), Reached]);
+        assert_eq!(between(4), [Failed, Open(0)]);
+        assert_eq!(between(5), [Failed, Open(0), Reached]);
+        assert!(cells.is_ambiguous() && cells.open(4) == [0]);
+        // A controller takes the worst for true.
+        assert_eq!([0, 1, 2, 3, 4, 5].map(|cell| cells.kind(CellId(cell))), worst);
+        assert_eq!(cells.arrive(Some(0), CellId(3), || panic!("no letter says it")), Open(0));
+        assert!(!CellTask::of_kinds(Aim::Stay, &worst, &worst).is_ambiguous());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use crate::model::StateId;
 use crate::numeric::Rational;
-use crate::property::Property;
+use crate::property::{Nature, Property, Verdict};
 
 /// A claim about a property of a model, and what is needed to check it.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +19,41 @@ pub struct Certificate {
     pub upper: f64,
     /// Why.
     pub evidence: Evidence,
+}
+
+/// A claim about an expression, and what proves the values of the operators in it, in the order of their evaluation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Derivation {
+    /// The expression, with what its names stand for in their places.
+    pub expression: String,
+    /// What nature does in operators that name the policy's direction only.
+    pub nature: Option<Nature>,
+    /// The files of the model.
+    pub files: Vec<FileDigest>,
+    /// The number of states of the model.
+    pub states: u64,
+    /// What is claimed.
+    pub claim: Claim,
+    /// Why.
+    pub proofs: Vec<Evidence>,
+}
+
+/// What is claimed about the initial states.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Claim {
+    /// The value is at least and at most this, in every initial state; perhaps infinite.
+    Between(f64, f64),
+    /// Whether a formula holds in all of them.
+    Verdict(Verdict),
+}
+
+/// What a certificate is about.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Statement {
+    /// One probability, perhaps compared with a threshold.
+    Probability(Box<Certificate>),
+    /// Anything else: rewards, and probabilities inside of each other.
+    Expression(Derivation),
 }
 
 /// A file that a model was read from.
@@ -39,6 +74,11 @@ pub enum Evidence {
     Steps(Vec<Step>),
     /// For unbounded properties.
     Inductive(Inductive),
+    /// For expected rewards of a number of steps: as [`Evidence::Steps`], bounds being any numbers of at least 0; without a
+    /// step they are 0, or what the state earns.
+    RewardSteps(Vec<Step>),
+    /// For expected rewards until a goal, and for discounted ones.
+    RewardInductive(RewardInductive),
 }
 
 /// What changes with one more step left; states ascending.
@@ -71,4 +111,18 @@ pub struct Inductive {
     pub exact_upper: Vec<(StateId, Rational)>,
     /// Ranks of the states with a positive lower bound, at least 1: a lower rank is met with positive probability.
     pub ranks: Vec<(StateId, u32)>,
+}
+
+/// Bounds on expected rewards that reproduce themselves; states ascending.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RewardInductive {
+    /// The policy's choices.
+    pub choices: Vec<(StateId, u32)>,
+    /// The lower bounds that are above 0.
+    pub lower: Vec<(StateId, f64)>,
+    /// The upper bounds that are finite.
+    pub upper: Vec<(StateId, f64)>,
+    /// Upper bounds below 1 on the probability that the goal is met, the players flipped: the rewards of these states are
+    /// infinite.
+    pub missed: Vec<(StateId, f64)>,
 }

@@ -31,6 +31,24 @@
 //! ```
 //!
 //! Bounds are about the event (for `G`: its complement), claims about the property.
+//!
+//! Other expressions have a line `expression` in place of `property`, and the proofs of all operators in them, in the order of
+//! their evaluation:
+//!
+//! ```text
+//! expression <PRISM's syntax, what names stand for in their places>
+//! nature robust                    or cooperative, if operators name the policy's direction only
+//! model …
+//! states …
+//! claim <lower> <upper>            or holds, fails, unknown
+//! probability                      followed by the steps, or `inductive` and its lines, as above
+//! reward                           followed by steps, or by:
+//! inductive
+//! choices <state> <choice> …
+//! lower <state> <bound> …          bounds above 0
+//! upper <state> <bound> …          bounds below infinity
+//! missed <state> <bound> …         bounds below 1 on the probability of meeting the goal: what is earned is infinite
+//! ```
 
 mod error;
 mod evidence;
@@ -38,9 +56,11 @@ mod read;
 mod write;
 
 pub use error::CertificateError;
-pub use evidence::{Certificate, Evidence, FileDigest, Inductive, Step};
-pub use read::{read, read_file};
-pub use write::write;
+pub use evidence::{
+    Certificate, Claim, Derivation, Evidence, FileDigest, Inductive, RewardInductive, Statement, Step,
+};
+pub use read::{read, read_file, read_statement, read_statement_file};
+pub use write::{write, write_derivation};
 
 /// The first line of the file.
 const FIRST_LINE: &str = "dynabs certificate 1";

@@ -14,6 +14,8 @@ impl Evaluator<'_> {
         resolution: Resolution,
     ) -> Result<Known, EvaluationError> {
         let file = &path.file;
+        // A certificate cannot tell whether the file is still the same.
+        self.is_unproved = true;
         let wrong = |problem: String| EvaluationError::Automaton { file: file.clone(), problem };
         let text = files::read_text(file).map_err(|error| wrong(error.to_string()))?;
         let automaton = read_hoa(&text).map_err(|error| wrong(error.to_string()))?;

@@ -6,7 +6,8 @@ use super::product::Product;
 use crate::automaton::Automaton;
 use crate::model::RewardStructure;
 use crate::property::{Node, Resolution};
-use crate::solver::{RewardQuery, SolverOptions, ValueBounds, solve_rewards};
+use crate::solver::ValueBounds;
+use crate::verify::RewardTask;
 
 impl Evaluator<'_> {
     /// Bounds on what is earned before the automaton of the formula knows that it holds; infinite where it may never know.
@@ -21,10 +22,10 @@ impl Evaluator<'_> {
         let letters = self.letters(&propositions)?;
         let product = Product::new(self.model, &mut Automaton::new(&formula)?, &letters)?;
         let rewards = product.rewards(self.model, rewards);
-        let options = SolverOptions { policy: false, evidence: false, ..self.options };
-        let query = RewardQuery::Reach(&product.satisfied);
-        let solution = solve_rewards(&product.model, &rewards, &query, resolution, &options)?;
-        let values = self.note(solution);
+        let task = RewardTask::Reach(&product.satisfied);
+        let values = self.earned(&product.model, &rewards, &task, resolution)?;
+        // The policy is one of the product.
+        self.policy = None;
         let of_starts = |values: &[f64]| product.starts.iter().map(|&state| values[state.index()]).collect();
         Ok(ValueBounds { lower: of_starts(&values.lower), upper: of_starts(&values.upper) })
     }

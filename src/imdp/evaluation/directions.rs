@@ -1,16 +1,7 @@
 //! Who maximises and who minimises, where a property says it of one player only.
 
 use crate::model::{IntervalMdp, ModelKind, StateId};
-use crate::property::{Optimum, Property, PropertyError, Question, Resolution};
-
-/// What nature does where a property names only the policy's direction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Nature {
-    /// It works against the policy, as Storm reads `Pmax`.
-    Robust,
-    /// It works with the policy, as PRISM reads `Pmax`.
-    Cooperative,
-}
+use crate::property::{Nature, Optimum, Property, PropertyError, Question, Resolution};
 
 /// The property with both directions, where the model or `nature` says what the second one is.
 pub fn direct(mut property: Property, model: &IntervalMdp, nature: Option<Nature>) -> Property {

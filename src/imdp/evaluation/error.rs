@@ -71,6 +71,9 @@ pub enum EvaluationError {
     /// A filter has no states at all.
     #[error("the condition of a filter holds in no state")]
     NoState,
+    /// A proof proves something else, or nothing.
+    #[error(transparent)]
+    Proof(#[from] crate::verify::Rejection),
     /// A formula inside of another is not decided in some state.
     #[error(
         "a formula inside of the path formula is not decided in state {state}; a smaller --epsilon may help"

@@ -1,13 +1,16 @@
 //! Evaluating expressions.
 
-use super::{EvaluationError, Known, Nature, Numbers, Truth, Values, interval};
+use super::derivation::Checker;
+use super::{EvaluationError, Known, Numbers, Truth, Values, interval};
+use crate::certificate::Evidence;
 use crate::model::{IntervalMdp, StateSet, VariableValues};
 use crate::numeric::{Rational, to_f64_down, to_f64_up};
 use crate::property::{
-    BinaryOperator, Constant, Function, Node, NodeKind, Relation, Verdict, arithmetic, call, constant,
-    formula, is_formula,
+    BinaryOperator, Constant, Function, Nature, Node, NodeKind, Relation, Verdict, arithmetic, call,
+    constant, formula, is_formula,
 };
 use crate::solver::{Inexact, Policy, SolverOptions, Status};
+use num_traits::{One, Zero};
 use std::collections::HashMap;
 
 /// Evaluates expressions on a model.
@@ -22,8 +25,16 @@ pub(super) struct Evaluator<'a> {
     pub(super) operators: usize,
     /// The states in which probabilities are wanted exactly, and nowhere else; none if bounds are wanted.
     pub(super) exactly: Option<StateSet>,
+    /// Whether anything between 0 and 1 may stand for a probability there that is neither.
+    pub(super) extremes: bool,
     /// Why a probability could not be had exactly, if so.
     pub(super) inexact: Option<Inexact>,
+    /// What proves the values of operators, in the order of their evaluation, if that was asked for.
+    pub(super) evidence: Vec<Evidence>,
+    /// Whether there is something among them that nothing proves.
+    pub(super) is_unproved: bool,
+    /// Proofs to be checked in place of computing anything.
+    pub(super) checker: Option<Checker<'a>>,
     /// Formulas with operators that have been evaluated, by where they stand.
     truths: HashMap<*const Node, Truth>,
 }
@@ -39,7 +50,11 @@ impl<'a> Evaluator<'a> {
             policy: None,
             operators: 0,
             exactly: None,
+            extremes: false,
             inexact: None,
+            evidence: vec![],
+            is_unproved: false,
+            checker: None,
             truths: HashMap::new(),
         }
     }
@@ -74,9 +89,9 @@ impl<'a> Evaluator<'a> {
         if let Some(truth) = self.truths.get(&std::ptr::from_ref(node)) {
             return Ok(truth.clone());
         }
-        let exactly = self.exactly.take();
+        let (exactly, extremes) = (self.exactly.take(), std::mem::take(&mut self.extremes));
         let truth = self.new_truth(node);
-        self.exactly = exactly;
+        (self.exactly, self.extremes) = (exactly, extremes);
         let truth = truth?;
         self.truths.insert(node, truth.clone());
         Ok(truth)
@@ -143,28 +158,44 @@ impl<'a> Evaluator<'a> {
             let same = left.iff(&self.truth(right)?);
             return Ok(if comparison == Relation::Equal { same } else { same.not() });
         }
-        self.compared(comparison, |evaluator| Ok((evaluator.numbers(left)?, evaluator.numbers(right)?)))
+        let is_operator = |node: &Node| matches!(node.kind, NodeKind::Operator(_));
+        let is_extreme =
+            is_operator(left) && is_zero_or_one(right) || is_operator(right) && is_zero_or_one(left);
+        self.compared(comparison, is_extreme, |evaluator| {
+            Ok((evaluator.numbers(left)?, evaluator.numbers(right)?))
+        })
     }
 
-    /// Where two numbers compare like this; where their bounds do not tell, their exact values are asked for.
+    /// Where two numbers compare like this; where their bounds do not tell, their exact values are asked for, or at first, for
+    /// probabilities compared with 0 or 1, whether they are those.
     pub(super) fn compared(
         &mut self,
         comparison: Relation,
+        is_extreme: bool,
         mut numbers: impl FnMut(&mut Self) -> Result<(Numbers, Numbers), EvaluationError>,
     ) -> Result<Truth, EvaluationError> {
         let (left, right) = numbers(self)?;
-        let truth = compare(comparison, &left, &right);
-        let stopped = matches!(self.status, Status::IterationLimit | Status::TimeLimit | Status::Interrupted);
-        if truth.is_exact() || stopped {
-            return Ok(truth);
+        let mut truth = compare(comparison, &left, &right);
+        for extremes in [true, false] {
+            let stopped =
+                matches!(self.status, Status::IterationLimit | Status::TimeLimit | Status::Interrupted);
+            // Certificates have no proofs of exact values.
+            let proofs_only = self.options.evidence || self.checker.is_some();
+            if truth.is_exact() || stopped || proofs_only {
+                break;
+            }
+            if extremes && !is_extreme {
+                continue;
+            }
+            let mut open = truth.may.clone();
+            open.difference_with(&truth.must);
+            (self.exactly, self.extremes) = (Some(open), extremes);
+            let exact = numbers(self);
+            (self.exactly, self.extremes) = (None, false);
+            let (left, right) = exact?;
+            truth = truth.refined(&compare(comparison, &left, &right));
         }
-        let mut open = truth.may.clone();
-        open.difference_with(&truth.must);
-        self.exactly = Some(open);
-        let exact = numbers(self);
-        self.exactly = None;
-        let (left, right) = exact?;
-        Ok(truth.refined(&compare(comparison, &left, &right)))
+        Ok(truth)
     }
 
     /// The value of a number in every state.
@@ -292,6 +323,11 @@ impl<'a> Evaluator<'a> {
         };
         Ok(self.known((0..states).map(value), exact))
     }
+}
+
+/// Whether a number is 0 or 1, with which all probabilities in between compare in the same way.
+pub(super) fn is_zero_or_one(node: &Node) -> bool {
+    matches!(constant(node), Some(Constant::Number(value)) if value.is_zero() || value.is_one())
 }
 
 /// Where numbers compare like this.

@@ -6,6 +6,7 @@
 
 mod automaton;
 mod cosafe;
+mod derivation;
 mod directions;
 mod error;
 mod exact;
@@ -18,13 +19,15 @@ mod path;
 mod product;
 mod truth;
 
-pub use directions::{Nature, direct};
+pub use derivation::check_derivation;
+pub use directions::direct;
 pub use error::EvaluationError;
 pub use numbers::{Known, Numbers};
 pub use truth::Truth;
 
+use crate::certificate::{Claim, Derivation, Evidence, FileDigest};
 use crate::model::{IntervalMdp, StateId};
-use crate::property::{Compound, Verdict};
+use crate::property::{Compound, Nature, Verdict};
 use crate::solver::{Inexact, Policy, SolverOptions, Status};
 use expression::Evaluator;
 
@@ -35,6 +38,22 @@ pub enum Values {
     Truth(Truth),
     /// A number.
     Numbers(Numbers),
+}
+
+impl Values {
+    /// What is known of the initial states.
+    fn claim(&self, model: &IntervalMdp) -> Claim {
+        let initial = || model.initial().ones();
+        match self {
+            Self::Truth(truth) => Claim::Verdict(Verdict::in_all(initial().map(|s| truth.verdict(s)))),
+            Self::Numbers(numbers) => {
+                let all: Vec<_> = initial().map(|s| numbers.bounds(s)).collect();
+                let lower = all.iter().map(|bounds| bounds.0).fold(f64::INFINITY, f64::min);
+                let upper = all.iter().map(|bounds| bounds.1).fold(f64::NEG_INFINITY, f64::max);
+                Claim::Between(lower, upper)
+            }
+        }
+    }
 }
 
 /// An expression answered.
@@ -50,6 +69,9 @@ pub struct Evaluation {
     pub inexact: Option<Inexact>,
     /// The policy, if the expression is a single operator and it was asked for.
     pub policy: Option<Policy>,
+    /// What proves the values of the operators in it, in the order of their evaluation, if that was asked for and there is
+    /// something for all of them.
+    pub evidence: Option<Vec<Evidence>>,
 }
 
 impl Evaluation {
@@ -65,8 +87,25 @@ impl Evaluation {
     ) -> Result<Self, EvaluationError> {
         let mut evaluator = Evaluator::new(model, nature, *options);
         let values = evaluator.values(&compound.root)?;
+        let evidence =
+            (options.evidence && !evaluator.is_unproved).then(|| std::mem::take(&mut evaluator.evidence));
         let Evaluator { status, iterations, inexact, .. } = evaluator;
-        Ok(Self { values, status, iterations, inexact, policy: evaluator.finish() })
+        Ok(Self { values, status, iterations, inexact, policy: evaluator.finish(), evidence })
+    }
+
+    /// The certificate of this evaluation of `compound`, for a model read from `files`; none if something in it has no proof.
+    ///
+    /// The evidence, which may be large, moves into it.
+    pub fn derivation(
+        &mut self,
+        compound: &Compound,
+        nature: Option<Nature>,
+        model: &IntervalMdp,
+        files: Vec<FileDigest>,
+    ) -> Option<Derivation> {
+        let proofs = self.evidence.take()?;
+        let (expression, states) = (compound.resolved(), model.num_states() as u64);
+        Some(Derivation { expression, nature, files, states, claim: self.values.claim(model), proofs })
     }
 
     /// Bounds on the value in a state; none if it is a formula.

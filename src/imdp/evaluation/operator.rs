@@ -1,16 +1,17 @@
 //! The operators `P` and `R`.
 
-use super::expression::Evaluator;
+use super::expression::{Evaluator, is_zero_or_one};
 use super::path::is_path;
 use super::{EvaluationError, Known, Numbers, Truth, directions};
-use crate::model::RewardStructure;
-use crate::numeric::to_f64;
+use crate::model::{IntervalMdp, RewardStructure};
+use crate::numeric::{Rational, to_f64};
 use crate::property::{
     Asked, Constant, Measured, Node, NodeKind, Operator, Relation, Resolution, RewardPath, StepBound,
     Structure, TemporalOperator, ThresholdComparison, constant,
 };
-use crate::solver::{RewardQuery, Solution, SolverOptions, Status, ValueBounds, solve_rewards};
-use num_traits::ToPrimitive;
+use crate::solver::{RewardQuery, Solution, Status, ValueBounds, solve_rewards};
+use crate::verify::RewardTask;
+use num_traits::{One, ToPrimitive};
 
 impl Evaluator<'_> {
     /// `P>=p […]`: whether it holds whatever policy and nature do.
@@ -25,7 +26,8 @@ impl Evaluator<'_> {
             ThresholdComparison::AtMost => Relation::LessEqual,
             ThresholdComparison::Below => Relation::Less,
         };
-        self.compared(comparison, |evaluator| {
+        let is_extreme = is_zero_or_one(threshold);
+        self.compared(comparison, is_extreme, |evaluator| {
             let values = Numbers::Bounds(evaluator.measured(&operator.measured, resolution)?);
             Ok((values, evaluator.numbers(threshold)?))
         })
@@ -59,9 +61,6 @@ impl Evaluator<'_> {
     ) -> Result<ValueBounds, EvaluationError> {
         let model = self.model;
         let rewards = find(model.rewards(), structure)?;
-        let solve = |query: &RewardQuery<'_>, options: &SolverOptions<'_>| {
-            solve_rewards(model, rewards, query, resolution, options)
-        };
         match path {
             RewardPath::Reach(node) => {
                 let operand = match &node.kind {
@@ -74,26 +73,45 @@ impl Evaluator<'_> {
                 };
                 let goal = self.truth(operand)?;
                 if goal.is_exact() {
-                    let solution = solve(&RewardQuery::Reach(&goal.must), &self.options)?;
-                    return Ok(self.note(solution));
+                    return self.earned(model, rewards, &RewardTask::Reach(&goal.must), resolution);
                 }
                 // The later the goal is met, the more is earned.
-                let lower = solve(&RewardQuery::Reach(&goal.may), &self.options)?;
-                let upper = solve(&RewardQuery::Reach(&goal.must), &self.options)?;
-                let (lower, upper) = (self.note(lower).lower, self.note(upper).upper);
-                Ok(ValueBounds { lower, upper })
+                let lower = self.earned(model, rewards, &RewardTask::Reach(&goal.may), resolution)?;
+                let upper = self.earned(model, rewards, &RewardTask::Reach(&goal.must), resolution)?;
+                Ok(ValueBounds { lower: lower.lower, upper: upper.upper })
             }
             RewardPath::Cumulative(bound, factor) => {
-                let steps = bound.as_ref().map(steps);
-                let discount = factor.as_ref().map_or(1.0, number);
-                let solution = solve(&RewardQuery::Cumulative { steps, discount }, &self.options)?;
-                Ok(self.note(solution))
+                let discount = factor.as_ref().and_then(constant).and_then(Constant::number);
+                let discount = discount.unwrap_or_else(Rational::one);
+                let task = RewardTask::Cumulative { steps: bound.as_ref().map(steps), discount };
+                self.earned(model, rewards, &task, resolution)
             }
             RewardPath::Instantaneous(node) => {
-                let solution = solve(&RewardQuery::Instantaneous(number(node) as u64), &self.options)?;
-                Ok(self.note(solution))
+                self.earned(model, rewards, &RewardTask::Instantaneous(number(node) as u64), resolution)
             }
         }
+    }
+
+    /// Bounds on an expected reward of a model, computed or proved.
+    pub(super) fn earned(
+        &mut self,
+        model: &IntervalMdp,
+        rewards: &RewardStructure,
+        task: &RewardTask<'_>,
+        resolution: Resolution,
+    ) -> Result<ValueBounds, EvaluationError> {
+        if let Some(checker) = &mut self.checker {
+            return checker.rewards(model, rewards, task, resolution);
+        }
+        let query = match task {
+            RewardTask::Reach(goal) => RewardQuery::Reach(goal),
+            RewardTask::Cumulative { steps, discount } => {
+                RewardQuery::Cumulative { steps: *steps, discount: to_f64(discount) }
+            }
+            RewardTask::Instantaneous(step) => RewardQuery::Instantaneous(*step),
+        };
+        let solution = solve_rewards(model, rewards, &query, resolution, &self.options)?;
+        Ok(self.note(solution))
     }
 
     /// Takes note of how a computation ended, and hands on its values.
@@ -103,6 +121,10 @@ impl Evaluator<'_> {
             self.status = solution.status;
         }
         self.policy = solution.policy;
+        match solution.evidence {
+            Some(evidence) => self.evidence.push(evidence),
+            None => self.is_unproved = true,
+        }
         solution.values
     }
 

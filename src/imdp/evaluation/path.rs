@@ -8,7 +8,7 @@ use crate::model::IntervalMdp;
 use crate::property::{
     BinaryOperator, Node, NodeKind, Resolution, StepBounds, TemporalOperator, UntilOperator,
 };
-use crate::solver::{Event, SolverOptions, exact_values, solve, solve_delayed};
+use crate::solver::{Event, Extremes, SolverOptions, exact_values, solve, solve_delayed};
 
 /// `safe U[first, last] goal`
 struct PathEvent {
@@ -114,8 +114,18 @@ impl Evaluator<'_> {
         first: u64,
         resolution: Resolution,
     ) -> Result<Known, EvaluationError> {
+        if let Some(checker) = &mut self.checker {
+            let bounds = checker.event(model, event, first, resolution)?;
+            return Ok(Known::within(bounds.lower, bounds.upper));
+        }
         if let Some(wanted) = &self.exactly {
             let (lower, upper) = (vec![0.0; model.num_states()], vec![1.0; model.num_states()]);
+            if self.extremes {
+                let extremes = (first == 0).then(|| Extremes::new(model, event, resolution));
+                let stand_in = |known: &Extremes| wanted.ones().map(|s| (s, known.stand_in(s))).collect();
+                let exact = extremes.as_ref().map(stand_in).unwrap_or_default();
+                return Ok(Known { exact, ..Known::within(lower, upper) });
+            }
             let exact = exact_values(model, event, first, resolution, wanted, options);
             self.inexact = exact.as_ref().err().copied().or(self.inexact);
             return Ok(Known { exact: exact.unwrap_or_default(), ..Known::within(lower, upper) });

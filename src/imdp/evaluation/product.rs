@@ -49,7 +49,10 @@ impl Evaluator<'_> {
         };
         let upper_goal = product.goal(true);
         let lower_goal = if resolution.nature_maximises() { upper_goal.clone() } else { product.goal(false) };
-        let options = crate::solver::SolverOptions { policy: false, evidence: false, ..self.options };
+        if let Some(checker) = &self.checker {
+            checker.goals(&product, [&lower_goal, &upper_goal], resolution)?;
+        }
+        let options = crate::solver::SolverOptions { policy: false, ..self.options };
         // Where values are wanted exactly, they are those of where runs begin.
         let exactly = self.exactly.take();
         self.exactly = exactly.as_ref().map(|wanted| {
@@ -98,7 +101,7 @@ pub(super) struct Product {
     pub(super) starts: Vec<StateId>,
     /// States from which the formula is satisfied whatever comes.
     pub(super) satisfied: StateSet,
-    conditions: Vec<Acceptance>,
+    pub(super) conditions: Vec<Acceptance>,
     /// The states of the model and of the automaton that its states are.
     pairs: Vec<(StateId, u32)>,
     /// For every choice, the one of the model that it is, if it is one.

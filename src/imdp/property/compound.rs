@@ -16,6 +16,11 @@ impl Compound {
     pub(super) fn new(name: Option<String>, text: &str, root: Node) -> Self {
         Self { name, text: text.split_whitespace().collect::<Vec<_>>().join(" "), root }
     }
+
+    /// The expression as text, with what its names stand for in their places: it needs no definitions.
+    pub fn resolved(&self) -> String {
+        self.root.to_string()
+    }
 }
 
 impl fmt::Display for Compound {

@@ -42,6 +42,7 @@ mod operand;
 mod parse_error;
 mod parser;
 mod path_formula;
+mod print;
 mod probability;
 mod query;
 mod question;
@@ -64,7 +65,7 @@ pub use path_formula::PathFormula;
 pub use query::{Query, QueryKind};
 pub use question::{Objective, Property, Question};
 pub use read::{parse_inquiry, parse_properties, parse_property};
-pub use resolution::{Optimum, Resolution};
+pub use resolution::{Nature, Optimum, Resolution};
 pub use state_formula::{Relation, StateFormula};
 pub use threshold::{Probability, ProbabilityError, Threshold, ThresholdComparison, Verdict};
 

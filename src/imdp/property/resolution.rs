@@ -56,6 +56,15 @@ impl fmt::Display for Resolution {
     }
 }
 
+/// What nature does where a property names only the policy's direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Nature {
+    /// It works against the policy, as Storm reads `Pmax`.
+    Robust,
+    /// It works with the policy, as PRISM reads `Pmax`.
+    Cooperative,
+}
+
 /// The optimum that a property names, before it is known whether its model has a policy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Optimum {

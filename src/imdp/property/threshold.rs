@@ -114,6 +114,12 @@ impl Probability {
 }
 
 impl Threshold {
+    /// Whether the bound is 0 or 1: all probabilities in between compare with it in the same way.
+    pub fn is_extreme(&self) -> bool {
+        let exact = &self.probability.exact;
+        exact.is_zero() || exact.is_one()
+    }
+
     /// Whether a value `v` with `lower ≤ v ≤ upper` satisfies the comparison.
     ///
     /// The doubles are compared with the decimal itself: the double nearest to 0.1 is above 0.1, so it

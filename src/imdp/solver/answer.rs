@@ -1,11 +1,12 @@
 //! A property answered: bounds at the initial states and a verdict.
 
 use super::exact::settle;
+use super::extremes::Extremes;
 use super::{Event, Inexact, Solution, SolveError, SolverOptions, Status, ValueBounds, solve};
 use crate::certificate::{Certificate, FileDigest};
 use crate::model::{IntervalMdp, StateId, StateSet};
 use crate::numeric::Rational;
-use crate::property::{Objective, Property, PropertyError, Query, Verdict};
+use crate::property::{Objective, Property, PropertyError, Query, Threshold, Verdict};
 use num_traits::One;
 use std::collections::BTreeMap;
 
@@ -28,8 +29,10 @@ pub struct Answer {
     pub verdict: Option<Verdict>,
     /// The exact values, by state, where the threshold lies between the bounds.
     pub exact: BTreeMap<StateId, Rational>,
-    /// Why there are none, if so.
+    /// Why the threshold is not decided, if so.
     pub inexact: Option<Inexact>,
+    /// Where the value is 0 and where it is 1, if that decides the threshold and exact values would have been too long.
+    extremes: Option<Extremes>,
 }
 
 /// Why a property has no answer.
@@ -82,10 +85,20 @@ impl Answer {
     ) -> Self {
         let values = ValueBounds { lower: vec![], upper: vec![] };
         let (lower, upper, verdict, exact, inexact) = (0.0, 1.0, None, BTreeMap::new(), None);
-        let mut answer = Self { objective, query, solution, values, lower, upper, verdict, exact, inexact };
+        let extremes = None;
+        let mut answer =
+            Self { objective, query, solution, values, lower, upper, verdict, exact, inexact, extremes };
         answer.summarise(model);
         if answer.verdict == Some(Verdict::Unknown) {
             answer.inexact = answer.decide(model, options).err();
+            let by_graph = |threshold: &Threshold| threshold.is_extreme();
+            if matches!(answer.inexact, Some(Inexact::TooLarge | Inexact::Unproved))
+                && answer.objective.threshold.as_ref().is_some_and(by_graph)
+            {
+                let event = Event::from(&answer.query.kind);
+                answer.extremes = Some(Extremes::new(model, &event, answer.query.resolution));
+                answer.inexact = None;
+            }
             answer.summarise(model);
         }
         answer
@@ -153,9 +166,14 @@ impl Answer {
     /// Whether the threshold holds in one state; `None` if there is no threshold.
     pub fn verdict_of(&self, state: StateId) -> Option<Verdict> {
         let threshold = self.objective.threshold.as_ref()?;
-        Some(match self.exact.get(&state) {
-            Some(value) => threshold.decide_exactly(value, value),
-            None => threshold.decide(self.values.lower[state.index()], self.values.upper[state.index()]),
+        Some(match (self.exact.get(&state), &self.extremes) {
+            (Some(value), _) => threshold.decide_exactly(value, value),
+            (None, Some(extremes)) => {
+                let value = extremes.stand_in(state.index());
+                let value = if self.query.complement { Rational::one() - value } else { value };
+                threshold.decide_exactly(&value, &value)
+            }
+            _ => threshold.decide(self.values.lower[state.index()], self.values.upper[state.index()]),
         })
     }
 }

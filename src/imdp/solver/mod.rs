@@ -13,7 +13,8 @@
 //!   from above by values that the operator does not raise (`unbounded`), and by linear equations where that is
 //!   too slow (`slow`).
 //!
-//! Where a threshold lies between the bounds, the values that decide it are computed exactly, if they are not too long (`exact`).
+//! Where a threshold lies between the bounds, the values that decide it are computed exactly, if they are not too long (`exact`);
+//! thresholds 0 and 1 are decided by the graph of the model (`extremes`).
 //!
 //! Bounds of rows are read as the shortest decimals that give the doubles, or as what stands beside them. Without a step bound the value
 //! can jump with the last digit (whether upper bounds sum to 1 decides whether nature can stay for ever),
@@ -29,6 +30,7 @@ mod evidence;
 mod exact;
 mod expectation;
 mod extrapolate;
+mod extremes;
 mod graph;
 mod guess;
 mod history;
@@ -50,6 +52,7 @@ pub use delay::solve_delayed;
 pub use exact::Inexact;
 pub(crate) use exact::exact_values;
 pub use expectation::worst_expectations;
+pub(crate) use extremes::Extremes;
 pub(crate) use graph::strong_components;
 pub(crate) use omega::{Acceptance, accepting_states};
 pub use options::{Control, SolverOptions, Status};
@@ -73,13 +76,21 @@ pub fn solve(
     resolution: Resolution,
     options: &SolverOptions<'_>,
 ) -> Result<Solution, SolveError> {
+    solve_for(model, query, resolution.into(), options)
+}
+
+fn solve_for(
+    model: &IntervalMdp,
+    query: &Event<'_>,
+    players: query::Players,
+    options: &SolverOptions<'_>,
+) -> Result<Solution, SolveError> {
     query.check(model)?;
     let epsilon = options.epsilon;
     if epsilon.is_nan() || epsilon <= 0.0 {
         return Err(SolveError::Epsilon { epsilon });
     }
     working_memory::require_working_memory(model)?;
-    let players = resolution.into();
     match *query {
         Event::Next { goal } => bounded::next(model, goal, players, options),
         Event::Until { safe, goal, steps: Some(steps) } => {

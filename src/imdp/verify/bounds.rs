@@ -37,6 +37,11 @@ impl Bounds {
         self.doubles[state]
     }
 
+    /// All bounds as doubles, rounded to the safe side.
+    pub(super) fn into_doubles(self) -> Vec<f64> {
+        self.doubles
+    }
+
     /// The bound if it is a fraction.
     pub(super) fn fraction(&self, state: usize) -> Option<&Rational> {
         self.exact.get(&StateId::from_index(state))

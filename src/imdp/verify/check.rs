@@ -8,7 +8,7 @@ use super::{Rejection, Side};
 use crate::certificate::{Certificate, Evidence, FileDigest, Inductive, Step};
 use crate::model::{IntervalMdp, StateId};
 use crate::numeric::{Rational, one_minus_down, one_minus_up};
-use crate::property::Verdict;
+use crate::property::{PropertyError, QueryKind, Resolution, Threshold, Verdict};
 use num_traits::One;
 
 /// What an accepted certificate proves, and how much was checked.
@@ -37,41 +37,73 @@ pub fn check(
     model: &IntervalMdp,
     files: &[FileDigest],
 ) -> Result<Proved, Rejection> {
-    check_files(&certificate.files, files)?;
-    let found = model.num_states() as u64;
-    if found != certificate.states {
-        return Err(Rejection::States { found, expected: certificate.states });
-    }
-    let task = Task::new(&certificate.property, model)?;
-    let rows = ExactRows::new(model, &task)?;
-    let start = |side| SideProof::new(side, &rows, &task);
-    let mut proof = Proof {
-        task: &task,
-        rows: &rows,
-        lower: start(Side::Lower),
-        upper: start(Side::Upper),
-        choices: vec![NO_CHOICE; model.num_states()],
-    };
-    let steps = match (&certificate.evidence, task.steps) {
-        (Evidence::Steps(steps), Some(horizon)) => proof.bounded(steps, horizon)?,
-        (Evidence::Inductive(inductive), None) => proof.unbounded(inductive)?,
-        (Evidence::Steps(_), None) => {
-            return Err(Rejection::Evidence { property: "unbounded", evidence: "bounded" });
-        }
-        (Evidence::Inductive(_), Some(_)) => {
-            return Err(Rejection::Evidence { property: "bounded", evidence: "unbounded" });
-        }
-    };
+    check_model(&certificate.files, certificate.states, model, files)?;
+    let refused = |error: PropertyError| Rejection::Property { error: error.to_string() };
+    let objective = certificate.property.resolve(model.kind()).map_err(refused)?;
+    let query = objective.query(model).map_err(refused)?;
+    let task = Task::new(model, query.kind, query.resolution);
+    let rows = ExactRows::new(model, &task.moving)?;
+    let mut proof = Proof::new(&task, &rows);
+    let steps = proof.check(&certificate.evidence)?;
     let Certificate { lower, upper, .. } = *certificate;
-    let verdict = proof.check_claims(lower, upper)?;
-    let evaluated = proof.lower.evaluated + proof.upper.evaluated;
-    Ok(Proved { lower, upper, verdict, states: found, steps, rows: evaluated })
+    let verdict = proof.check_claims(lower, upper, query.complement, objective.threshold.as_ref())?;
+    Ok(Proved { lower, upper, verdict, states: certificate.states, steps, rows: proof.evaluated() })
+}
+
+/// What evidence proves about an event: bounds on its probability, by state.
+#[derive(Clone, Debug)]
+pub struct ProvedBounds {
+    /// The lower bounds.
+    pub lower: Vec<f64>,
+    /// The upper bounds.
+    pub upper: Vec<f64>,
+    /// The number of steps that were checked; one for inductive bounds.
+    pub steps: u64,
+    /// The number of expectations of rows that were computed.
+    pub rows: u64,
+}
+
+/// Checks what is said to prove bounds on the probability of an event.
+///
+/// # Errors
+/// [`Rejection`] says what does not follow, in which step and state.
+pub fn prove(
+    model: &IntervalMdp,
+    event: QueryKind,
+    resolution: Resolution,
+    evidence: &Evidence,
+) -> Result<ProvedBounds, Rejection> {
+    let task = Task::new(model, event, resolution);
+    let rows = ExactRows::new(model, &task.moving)?;
+    let mut proof = Proof::new(&task, &rows);
+    let steps = proof.check(evidence)?;
+    let (rows, Proof { lower, upper, .. }) = (proof.evaluated(), proof);
+    Ok(ProvedBounds { lower: lower.values.into_doubles(), upper: upper.values.into_doubles(), steps, rows })
+}
+
+/// Checks that a model is the one of a certificate.
+///
+/// # Errors
+/// [`Rejection`] names the file, or the number of states.
+pub fn check_model(
+    expected: &[FileDigest],
+    states: u64,
+    model: &IntervalMdp,
+    files: &[FileDigest],
+) -> Result<(), Rejection> {
+    check_files(expected, files)?;
+    match model.num_states() as u64 {
+        found if found == states => Ok(()),
+        found => Err(Rejection::States { found, expected: states }),
+    }
 }
 
 fn check_files(expected: &[FileDigest], found: &[FileDigest]) -> Result<(), Rejection> {
-    let missing = || "missing".to_owned();
+    // There may be several of a kind, such as files of rewards.
     let digest = |files: &[FileDigest], kind: &str| {
-        files.iter().find(|file| file.kind == kind).map_or_else(missing, |file| file.sha256.clone())
+        let all: Vec<&str> =
+            files.iter().filter(|file| file.kind == kind).map(|file| &file.sha256[..]).collect();
+        if all.is_empty() { "missing".to_owned() } else { all.join(", ") }
     };
     for FileDigest { kind, .. } in expected.iter().chain(found) {
         let (expected, found) = (digest(expected, kind), digest(found, kind));
@@ -91,7 +123,35 @@ struct Proof<'a> {
     choices: Vec<u32>,
 }
 
-impl Proof<'_> {
+impl<'a> Proof<'a> {
+    fn new(task: &'a Task, rows: &'a ExactRows<'a>) -> Self {
+        let start = |side| SideProof::new(side, rows, task);
+        let choices = vec![NO_CHOICE; rows.model.num_states()];
+        Self { task, rows, lower: start(Side::Lower), upper: start(Side::Upper), choices }
+    }
+
+    /// How many expectations of rows were computed.
+    fn evaluated(&self) -> u64 {
+        self.lower.evaluated + self.upper.evaluated
+    }
+
+    /// Checks evidence; returns how many steps were checked.
+    fn check(&mut self, evidence: &Evidence) -> Result<u64, Rejection> {
+        match (evidence, self.task.steps) {
+            (Evidence::Steps(steps), Some(horizon)) => self.bounded(steps, horizon),
+            (Evidence::Inductive(inductive), None) => self.unbounded(inductive),
+            (Evidence::RewardSteps(_) | Evidence::RewardInductive(_), _) => {
+                Err(Rejection::Evidence { property: "a probability", evidence: "rewards" })
+            }
+            (Evidence::Steps(_), None) => {
+                Err(Rejection::Evidence { property: "unbounded", evidence: "bounded" })
+            }
+            (Evidence::Inductive(_), Some(_)) => {
+                Err(Rejection::Evidence { property: "bounded", evidence: "unbounded" })
+            }
+        }
+    }
+
     /// Checks steps one by one; returns how many were checked.
     fn bounded(&mut self, steps: &[Step], horizon: u64) -> Result<u64, Rejection> {
         let found = steps.len() as u64;
@@ -175,13 +235,19 @@ impl Proof<'_> {
     }
 
     /// Checks the claims about the initial states; for thresholds, returns what follows.
-    fn check_claims(&self, lower: f64, upper: f64) -> Result<Option<Verdict>, Rejection> {
+    fn check_claims(
+        &self,
+        lower: f64,
+        upper: f64,
+        complement: bool,
+        threshold: Option<&Threshold>,
+    ) -> Result<Option<Verdict>, Rejection> {
         let mut verdicts = vec![];
         for s in self.rows.model.initial().ones() {
             let (lower_bounds, upper_bounds) = (&self.lower.values, &self.upper.values);
             let (mut low, mut high) = (lower_bounds.double(s), upper_bounds.double(s));
             let mut exact = (lower_bounds.rational(s), upper_bounds.rational(s));
-            if self.task.complement {
+            if complement {
                 (low, high) = (one_minus_down(high), one_minus_up(low));
                 exact = (Rational::one() - exact.1, Rational::one() - exact.0);
             }
@@ -192,9 +258,8 @@ impl Proof<'_> {
             if !Side::Upper.follows(upper, high) {
                 return Err(Rejection::Claim { side: Side::Upper, claimed: upper, proved: high, state });
             }
-            verdicts
-                .extend(self.task.objective.threshold.as_ref().map(|t| t.decide_exactly(&exact.0, &exact.1)));
+            verdicts.extend(threshold.map(|threshold| threshold.decide_exactly(&exact.0, &exact.1)));
         }
-        Ok(self.task.objective.threshold.as_ref().map(|_| Verdict::in_all(verdicts)))
+        Ok(threshold.map(|_| Verdict::in_all(verdicts)))
     }
 }

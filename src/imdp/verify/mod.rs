@@ -56,6 +56,23 @@
 //! **Claims.** The bounds of every state are those after the last step; the claim about the initial states
 //! must follow from them in exact arithmetic.
 //!
+//! **Rewards.** With `r ≥ 0` what a choice earns, `T(V)(s) = opt_a opt_p (r + γ p·V)`.
+//!
+//! - *A number of steps*: as for probabilities, from `V_0 = 0`, or from the states' rewards if only the last state's counts.
+//! - *Discounted for ever*: from `L ≤ T(L)`, `L` bounded, follows `L ≤ Tⁿ(L) ≤ Tⁿ(0) + γⁿ max L → V`; from `U ≥ T(U)`,
+//!   `U ≥ Tⁿ(U) ≥ Tⁿ(0) → V`.
+//! - *Until a goal*, infinite where the goal may be missed. *Infinite*: an upper bound below 1 on the probability that the goal
+//!   is met, for the best that those can do who want to earn little; proved as above. *Lower*: `L ≤ T(L)`, `L` bounded, 0 in
+//!   the goal, infinite where that is proved. Whatever those do who want to earn little, either the goal is missed with
+//!   positive probability and the rewards are infinite, or it is met almost surely, and so only states are met from which it
+//!   is; then `L` and the rewards so far are a submartingale, and what is left of `L` vanishes. *Upper*: `U > T(U)` where `U` is
+//!   finite, outside of the goal. Those who want to earn little keep to what attains `T(U)`. There are finitely many states,
+//!   so `U` falls by some `ε > 0` more than what is earned in every step: the goal is met after at most `U/ε` expected steps,
+//!   and what is earned until then is at most `U`. ∎
+//!
+//! A reward is read as the double, if that is a whole number, and otherwise as anything between the doubles next to it, on
+//! the safe side: what was written lies there.
+//!
 //! # Cost
 //!
 //! A row's expectation is computed once per step and side, and only if a successor's value changed, rounded
@@ -64,13 +81,19 @@
 
 mod bounds;
 mod check;
+mod earned;
 mod extremum;
+mod masses;
 mod one_step;
 mod ranks;
 mod rejection;
+mod rewards;
 mod side;
+mod staying;
 mod task;
 
-pub use check::{Proved, check};
+pub use check::{Proved, ProvedBounds, check, check_model, prove};
 pub use rejection::Rejection;
+pub use rewards::{RewardTask, prove_rewards};
 pub use side::Side;
+pub use staying::{OmegaCondition, prove_accepting, prove_nothing_missed};

@@ -15,7 +15,7 @@ pub(super) const NO_CHOICE: u32 = u32::MAX;
 /// The exact rows that moving states can choose.
 pub(super) struct ExactRows<'a> {
     pub model: &'a IntervalMdp,
-    used: StateSet,
+    pub used: StateSet,
     rows: Vec<Option<ExactRow>>,
     /// The longest range of rows of a moving state.
     longest: usize,
@@ -24,8 +24,8 @@ pub(super) struct ExactRows<'a> {
 impl<'a> ExactRows<'a> {
     /// # Errors
     /// [`MemoryError`] if they would not fit.
-    pub(super) fn new(model: &'a IntervalMdp, task: &Task) -> Result<Self, MemoryError> {
-        let moving = || task.moving.ones().map(StateId::from_index);
+    pub(super) fn new(model: &'a IntervalMdp, moving: &StateSet) -> Result<Self, MemoryError> {
+        let moving = || moving.ones().map(StateId::from_index);
         let all = model.rows();
         let used: Vec<RowId> = model.choices().used_rows(all.len(), moving());
         let entries: u64 = used.iter().map(|&row| all.row_len(row) as u64).sum();

@@ -36,7 +36,7 @@ pub enum Rejection {
     /// Steps for an unbounded property or the other way round.
     #[error("the property is {property}, the evidence is for one that is {evidence}")]
     Evidence {
-        /// `bounded` or `unbounded`.
+        /// `bounded` or `unbounded`, or what else it is about.
         property: &'static str,
         /// The other one.
         evidence: &'static str,
@@ -98,6 +98,20 @@ pub enum Rejection {
         /// The row's expectation, rounded to the side of the bound.
         expectation: f64,
     },
+    /// What a state that stays where it is earns is another number.
+    #[error("{}, state {state}: the {side} bound {bound:?} does not follow: staying there earns {value:?}", place(.step))]
+    Earned {
+        /// In which step.
+        step: Option<u64>,
+        /// The state.
+        state: StateId,
+        /// Which bound.
+        side: Side,
+        /// The bound.
+        bound: f64,
+        /// What it is, rounded to the side of the bound.
+        value: f64,
+    },
     /// A rank that does not decrease.
     #[error(
         "state {state} has rank {rank}: by row {row} it need not meet a rank below {needed}, so it may never be left"
@@ -125,6 +139,36 @@ pub enum Rejection {
         proved: f64,
         /// The initial state.
         state: StateId,
+    },
+    /// A policy cannot make sure that a path formula is satisfied.
+    #[error(
+        "state {state} of the product with the automaton counts as one that satisfies the path formula; it need not"
+    )]
+    Accepting {
+        /// The state of the product.
+        state: StateId,
+    },
+    /// Runs may satisfy a path formula elsewhere.
+    #[error(
+        "state {state} of the product with the automaton does not count, but the path formula may be satisfied from it"
+    )]
+    Missed {
+        /// The state of the product.
+        state: StateId,
+    },
+    /// The expression cannot be evaluated with what was proved.
+    #[error("{problem}")]
+    Expression {
+        /// Why.
+        problem: String,
+    },
+    /// The verdict that is claimed is not the one that was proved.
+    #[error("it is claimed that the formula {claimed}; proved is that it {proved}")]
+    Verdict {
+        /// The claim.
+        claimed: String,
+        /// What was proved.
+        proved: String,
     },
     /// The exact model does not fit into memory.
     #[error(transparent)]

@@ -1,15 +1,11 @@
 //! What a property of a model asks to be proved.
 
-use super::Rejection;
 use crate::exact::Nature;
 use crate::model::{IntervalMdp, StateId, StateSet};
-use crate::property::{Objective, Property, QueryKind};
+use crate::property::{QueryKind, Resolution};
 
 /// An event whose probability is bounded, and who pulls which way.
 pub(super) struct Task {
-    pub objective: Objective,
-    /// Whether the value asked for is 1 minus the probability of the event.
-    pub complement: bool,
     /// Where a path succeeds.
     pub goal: StateSet,
     /// The states whose value is a matter of choices: all others have 1 in the goal and 0 elsewhere.
@@ -21,15 +17,11 @@ pub(super) struct Task {
 }
 
 impl Task {
-    pub(super) fn new(property: &Property, model: &IntervalMdp) -> Result<Self, Rejection> {
-        let refused =
-            |error: crate::property::PropertyError| Rejection::Property { error: error.to_string() };
-        let objective = property.resolve(model.kind()).map_err(refused)?;
-        let query = objective.query(model).map_err(refused)?;
+    pub(super) fn new(model: &IntervalMdp, event: QueryKind, resolution: Resolution) -> Self {
         let has_rows = |s: &usize| !model.choices().ranges(StateId::from_index(*s)).is_empty();
         let mut moving: StateSet = (0..model.num_states()).filter(has_rows).collect();
         moving.grow(model.num_states());
-        let (goal, steps) = match query.kind {
+        let (goal, steps) = match event {
             // A goal state may be left at once: `X` asks about the state after the step only.
             QueryKind::Next { goal } => (goal, Some(1)),
             QueryKind::Until { safe, goal, steps } => {
@@ -38,13 +30,17 @@ impl Task {
                 (goal, steps)
             }
         };
-        let nature = if query.resolution.nature_maximises() { Nature::Max } else { Nature::Min };
-        let policy_maximises = query.resolution.policy_maximises();
-        Ok(Self { objective, complement: query.complement, goal, moving, steps, policy_maximises, nature })
+        let policy_maximises = resolution.policy_maximises();
+        Self { goal, moving, steps, policy_maximises, nature: nature_of(resolution) }
     }
 
     /// 1 in the goal, 0 elsewhere.
     pub(super) fn indicator(&self) -> Vec<f64> {
         (0..self.goal.len()).map(|s| if self.goal.contains(s) { 1.0 } else { 0.0 }).collect()
     }
+}
+
+/// Which way nature pulls.
+pub(super) fn nature_of(resolution: Resolution) -> Nature {
+    if resolution.nature_maximises() { Nature::Max } else { Nature::Min }
 }

@@ -4,6 +4,8 @@
 //! stored per transition, and the abstraction has bounds on both sides.
 
 mod correlated;
+mod export;
+mod leaving;
 mod reach;
 mod resolution;
 mod sampled;
@@ -15,14 +17,14 @@ use crate::Warning;
 use crate::guarantee::Evidence;
 use crate::landing::{Axis, Images, Landing, LandingError, Layout, Question, Stencil, Taps, occurring};
 use crate::noise::known::Distribution;
-use crate::partition::{CellId, GridError};
+use crate::partition::{CellId, CellKind, GridError};
 use crate::problem::{InputNoise, InputProblem};
 use crate::statistics::BudgetError;
 use crate::system::{ImageError, ImageMap, Lattice};
-use crate::task::{Aim, CellTask};
+use crate::task::CellTask;
+pub use export::{InputEncoding, InputModel};
 use imdp::model::{MemoryError, require_memory};
 use imdp::numeric::Rational;
-use imdp::property::{PathFormula, Property, Resolution, StateFormula};
 use reach::Reach;
 use sampled::Proved;
 use std::time::{Duration, Instant};
@@ -70,6 +72,15 @@ pub enum InputsError {
         "no input is enabled in any cell: no input leaves room for the feedback\n  Use smaller cells, a smaller gain or a larger U."
     )]
     NothingEnabled,
+    /// Nothing can stay in the partition.
+    #[error(
+        "every input leads from every cell out of the partition, and no noise leads back: {which}; expected some that stay\n  \
+         Check the signs and units of the dynamics, or enlarge the partition."
+    )]
+    LeavesPartition {
+        /// Where images lie, and where the partition.
+        which: String,
+    },
     /// The samples prove too little.
     #[error(
         "{samples} samples leave {unseen} of the probability unseen; expected enough for at most half of it\n  Take more samples, or a lower confidence."
@@ -121,6 +132,9 @@ impl InputAbstraction {
                 + BYTES_OF_CELL * u64::from(grid.num_cells()),
         )?;
         let images = Images::new(&tables, &ordinary, layout);
+        if let Some(which) = leaving::all_leave(problem, &landing, &images, (&extent, &resolution)) {
+            return Err(InputsError::LeavesPartition { which });
+        }
         let open = images.acting();
         let phases = vec![("images", tabulated), ("landing", start.elapsed() - tabulated)];
         Ok(Self {
@@ -169,25 +183,20 @@ impl InputAbstraction {
         self.open.binary_search(&cell.0).is_err() && !self.task.open(cell.index()).is_empty()
     }
 
-    /// The task as a property of the model; with `Pmaxmin` its value is the lower bound, with `Pmaxmax` the upper one.
-    pub fn property(&self, resolution: Resolution) -> Property {
-        let steps = self.steps.map(|steps| steps.saturating_mul(self.micro_steps()));
-        let safe = StateFormula::negation(StateFormula::label("failed"));
-        let path = match self.task.aim() {
-            Aim::Reach | Aim::End => {
-                PathFormula::Until { left: safe, right: StateFormula::label("reached"), steps }
-            }
-            Aim::Stay => PathFormula::Globally { formula: safe, steps },
-        };
-        Property::value(resolution, path)
+    /// The cells in which the controller decides something, ascending: not those in which it takes the task for lost, for a
+    /// part of them is unsafe.
+    pub fn decided(&self) -> Vec<u32> {
+        let decides = |&cell: &u32| self.task.kind(CellId(cell)) == CellKind::Ordinary;
+        self.open.iter().copied().filter(decides).collect()
     }
 
     /// The cells that are initial: the given one, or all in which something is decided.
     pub fn initial(&self, given: Option<CellId>) -> Vec<u32> {
+        let decided = self.decided();
         match given {
             Some(cell) => vec![cell.0],
-            None if self.open.is_empty() => (0..self.task.num_cells() as u32).collect(),
-            None => self.open.clone(),
+            None if decided.is_empty() => (0..self.task.num_cells() as u32).collect(),
+            None => decided,
         }
     }
 }

@@ -20,6 +20,11 @@ impl RewardNotes {
 
     /// Reads the rewards of a state.
     pub(super) fn of_state(&mut self, cursor: &mut Cursor<'_>, state: usize) -> Result<(), Box<Fault>> {
+        if self.structures.is_empty() && state == 0 {
+            // PRISM writes the name of a structure that has none as it is: nothing.
+            self.structures.push(RewardStructure::new(""));
+            self.intervals.push(false);
+        }
         for (structure, value) in self.read(cursor)?.into_iter().enumerate() {
             put(&mut self.structures[structure].states, state, value);
         }

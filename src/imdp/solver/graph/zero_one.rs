@@ -83,6 +83,17 @@ pub(in crate::solver) fn stays(
     }
 }
 
+/// `Q_p p(Y) > 0`: whether every (`Min`) or some (`Max`) distribution of a row gives a set positive probability.
+pub(super) fn hits(row: Row<'_>, nature: Direction, inside: impl Fn(StateId) -> bool) -> bool {
+    let within = || (0..row.len()).filter(|&i| inside(row.successors[i]));
+    if nature == Direction::Min && within().any(|i| row.lower[i] > 0.0) {
+        return true;
+    }
+    let end = if nature == Direction::Min { End::Upper } else { End::Lower };
+    within().any(|i| row.upper[i] > 0.0)
+        && compare_with_one(row, end, |i| !inside(row.successors[i])) == Ordering::Less
+}
+
 /// What is needed to find the states from which a set is met with positive probability.
 pub(super) struct Analysis<'a> {
     rows: &'a Rows,
@@ -150,26 +161,25 @@ impl<'a> Analysis<'a> {
         if self.players.nature == Direction::Min && row.lower[i] > 0.0 {
             return true;
         }
-        let inside = |j: &usize| reached.contains(row.successors[*j].index());
+        let inside = |s: StateId| reached.contains(s.index());
         if outside > 1.0 + margin(row.len()) {
             return false;
         }
-        if !(0..row.len()).any(|j| row.upper[j] > 0.0 && inside(&j)) {
-            return false;
+        if outside < 1.0 - margin(row.len()) {
+            return (0..row.len()).any(|j| row.upper[j] > 0.0 && inside(row.successors[j]));
         }
-        let end = if self.players.nature == Direction::Min { End::Upper } else { End::Lower };
-        outside < 1.0 - margin(row.len()) || compare_with_one(row, end, |j| !inside(&j)) == Ordering::Less
+        hits(row, self.players.nature, inside)
     }
 }
 
 /// For every state, the rows that list it.
-struct Predecessors {
+pub(super) struct Predecessors {
     starts: Vec<usize>,
     rows: Vec<RowId>,
 }
 
 impl Predecessors {
-    fn new(all: &Rows, states: usize) -> Self {
+    pub(super) fn new(all: &Rows, states: usize) -> Self {
         let mut starts = vec![0; states + 1];
         for row in all.iter() {
             row.successors.iter().for_each(|&s| starts[s.index() + 1] += 1);
@@ -187,7 +197,7 @@ impl Predecessors {
         Self { starts, rows }
     }
 
-    fn get(&self, state: StateId) -> &[RowId] {
+    pub(super) fn get(&self, state: StateId) -> &[RowId] {
         &self.rows[self.starts[state.index()]..self.starts[state.index() + 1]]
     }
 }

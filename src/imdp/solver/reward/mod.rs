@@ -64,10 +64,10 @@ pub fn solve_rewards(
         RewardQuery::Reach(goal) if goal.len() != model.num_states() => {
             Err(SolveError::Length { what: "goal", found: goal.len(), states: model.num_states() })
         }
-        RewardQuery::Reach(goal) => Ok(reach::reach(model, rewards, goal, players, options)),
+        RewardQuery::Reach(goal) => reach::reach(model, rewards, goal, players, options),
         RewardQuery::Cumulative { steps, discount } => {
             steps::cumulative(model, rewards, (steps, discount), players, options)
         }
-        RewardQuery::Instantaneous(step) => Ok(steps::instantaneous(model, rewards, step, players, options)),
+        RewardQuery::Instantaneous(step) => steps::instantaneous(model, rewards, step, players, options),
     }
 }

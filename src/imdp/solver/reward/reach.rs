@@ -1,12 +1,14 @@
 //! Expected rewards until a goal.
 
+use super::super::evidence::unlike;
 use super::super::expectation::Bound;
 use super::super::graph::{stays, zero_one};
 use super::super::options::Control;
 use super::super::policy::NO_CHOICE;
-use super::super::query::{Direction, Players};
-use super::super::{Policy, Solution, SolverOptions, Status, ValueBounds};
+use super::super::query::{Direction, Event, Players};
+use super::super::{Policy, Solution, SolveError, SolverOptions, Status, ValueBounds, solve_for};
 use super::operator::Operator;
+use crate::certificate::{Evidence, RewardInductive};
 use crate::model::{IntervalMdp, RewardStructure, RowId, StateId, StateSet};
 
 /// Sweeps in which a lower bound that was derived from the upper one is lowered until it holds.
@@ -19,7 +21,7 @@ pub(super) fn reach(
     goal: &StateSet,
     players: Players,
     options: &SolverOptions<'_>,
-) -> Solution {
+) -> Result<Solution, SolveError> {
     let states = model.num_states();
     let has_rows = |s: &usize| !model.choices().ranges(StateId::from_index(*s)).is_empty();
     let mut moving = StateSet::with_capacity(states);
@@ -41,21 +43,67 @@ pub(super) fn reach(
         upper: vec![0.0; states],
         choices: vec![NO_CHOICE; states],
         maximises: players.policy == Direction::Max,
+        counted: None,
         control: Control::new(options),
     };
     let status = iteration.run(options.epsilon);
-    let Iteration { mut lower, mut upper, choices, control, .. } = iteration;
+    let proved = options.evidence && iteration.widen(options.epsilon);
+    let Iteration { mut lower, mut upper, mut choices, control, .. } = iteration;
     for state in (0..states).filter(|&s| !finite.contains(s)) {
         (lower[state], upper[state]) = (f64::INFINITY, f64::INFINITY);
     }
-    Solution {
+    let mut evidence = None;
+    if proved && let Some(missed) = missed(model, goal, willing, (&finite, &moving), &mut choices, options)? {
+        let open = || open.iter().map(|s| s.index());
+        let chosen = moving.ones().filter(|&s| choices[s] != NO_CHOICE);
+        evidence = Some(Evidence::RewardInductive(RewardInductive {
+            choices: chosen.map(|s| (StateId::from_index(s), choices[s])).collect(),
+            lower: unlike(&lower, open(), 0.0),
+            upper: unlike(&upper, open(), f64::INFINITY),
+            missed,
+        }));
+    }
+    Ok(Solution {
         values: ValueBounds { lower, upper },
         status,
         iterations: control.iterations,
         policy: options.policy.then(|| Policy::stationary(&choices)),
-        evidence: None,
+        evidence,
         history: vec![],
+    })
+}
+
+/// Upper bounds below 1 on the probability that the goal is met, for the states whose rewards are infinite, and what a policy
+/// does there that wants to miss it; none if the bounds do not tell for all of them.
+fn missed(
+    model: &IntervalMdp,
+    goal: &StateSet,
+    willing: Players,
+    (finite, moving): (&StateSet, &StateSet),
+    choices: &mut [u32],
+    options: &SolverOptions<'_>,
+) -> Result<Option<Vec<(StateId, f64)>>, SolveError> {
+    let infinite: Vec<usize> = moving.difference(finite).collect();
+    if infinite.is_empty() {
+        return Ok(Some(vec![]));
     }
+    let mut safe = StateSet::with_capacity(model.num_states());
+    safe.insert_range(..);
+    let event = Event::Until { safe: &safe, goal, steps: None };
+    let options = SolverOptions { evidence: true, ..*options };
+    let solution = solve_for(model, &event, willing, &options)?;
+    let Some(Evidence::Inductive(inductive)) = solution.evidence else { return Ok(None) };
+    let below = inductive.upper.iter().filter(|(s, _)| infinite.binary_search(&s.index()).is_ok()).count();
+    if below < infinite.len() {
+        return Ok(None);
+    }
+    // Where the rewards are finite, the choices are those for them.
+    for &(state, choice) in &inductive.choices {
+        if !finite.contains(state.index()) {
+            choices[state.index()] = choice;
+        }
+    }
+    Ok(Some(inductive.upper.into_iter().filter(|(s, _)| !finite.contains(s.index())).collect()))
 }
 
 struct Iteration<'a> {
@@ -66,6 +114,8 @@ struct Iteration<'a> {
     upper: Vec<f64>,
     choices: Vec<u32>,
     maximises: bool,
+    /// At least the expected number of steps, once that is known.
+    counted: Option<Vec<f64>>,
     control: Control<'a>,
 }
 
@@ -76,7 +126,10 @@ impl Iteration<'_> {
             return Status::Converged;
         }
         let steps = match self.expected_steps() {
-            Ok(steps) => steps,
+            Ok(steps) => {
+                self.counted = Some(steps.clone());
+                steps
+            }
             Err(reason) => {
                 states.iter().for_each(|&s| self.upper[s.index()] = f64::INFINITY);
                 return reason;
@@ -172,6 +225,42 @@ impl Iteration<'_> {
             (upper - lower) / lower.max(1.0)
         };
         self.operator.states.iter().map(gap).fold(0.0, f64::max)
+    }
+
+    /// Makes the upper bounds such that a step lowers all of them, as a proof of them needs; returns whether it could.
+    fn widen(&mut self, epsilon: f64) -> bool {
+        let states = self.operator.states.clone();
+        if states.iter().any(|&s| self.upper[s.index()] == f64::INFINITY) {
+            return false;
+        }
+        let Some(steps) = self.counted.clone() else { return states.is_empty() };
+        let scale = states.iter().map(|&s| self.upper[s.index()]).fold(1.0, f64::max);
+        let longest = states.iter().map(|&s| steps[s.index()]).fold(1.0, f64::max);
+        let largest = (self.operator.largest_cost() * 1.5).max(f64::MIN_POSITIVE);
+        let mut margin = (epsilon.min(1e-9) * scale / longest).max(1e-15 * scale);
+        let mut candidate = self.upper.clone();
+        loop {
+            let is_last = margin > largest;
+            for &s in &states {
+                let s = s.index();
+                let raised = (self.upper[s] + margin * steps[s]).next_up();
+                candidate[s] = if is_last { (largest * steps[s]).next_up() } else { raised };
+            }
+            let (results, chosen) = self.operator.apply(&candidate, 1.0, Bound::Upper);
+            if states.iter().zip(&results).all(|(&s, value)| *value < candidate[s.index()]) {
+                for (i, &s) in states.iter().enumerate() {
+                    self.upper[s.index()] = candidate[s.index()];
+                    if !self.maximises {
+                        self.choices[s.index()] = chosen[i];
+                    }
+                }
+                return true;
+            }
+            if is_last {
+                return false;
+            }
+            margin *= 4.0;
+        }
     }
 
     /// Tries bounds that are close to those on the other side; returns whether one of them holds.

@@ -1,12 +1,14 @@
 //! Expected rewards of a number of steps, and discounted ones.
 
 use super::super::bounded::indicator;
+use super::super::evidence::{Recorder, unlike};
 use super::super::expectation::Bound;
 use super::super::options::Control;
-use super::super::query::Players;
+use super::super::query::{Direction, Players};
 use super::super::{Policy, Solution, SolveError, SolverOptions, Status, ValueBounds};
 use super::costs;
 use super::operator::{Operator, discounted};
+use crate::certificate::{Evidence, RewardInductive};
 use crate::model::{IntervalMdp, RewardStructure, StateId};
 
 /// The value of the rewards of so many steps, or of all.
@@ -30,6 +32,7 @@ pub(super) fn cumulative(
         upper.fill(most.next_up().next_up().min(f64::MAX));
     }
     let mut control = Control::new(options);
+    let mut recorder = (options.evidence && steps.is_some()).then(|| Recorder::new(model.num_states()));
     let mut changes = vec![];
     let mut current = vec![u32::MAX; model.num_states()];
     let status = loop {
@@ -42,8 +45,7 @@ pub(super) fn cumulative(
             }
             break reason;
         }
-        let chosen = iteration.step(&mut lower, discount, Bound::Lower);
-        iteration.step(&mut upper, discount, Bound::Upper);
+        let chosen = iteration.both(&mut lower, &mut upper, discount, &mut recorder)?;
         for (&s, choice) in iteration.operator.states.iter().zip(chosen) {
             if current[s.index()] != choice {
                 current[s.index()] = choice;
@@ -56,6 +58,14 @@ pub(super) fn cumulative(
             break Status::Converged;
         }
     };
+    let evidence = match recorder {
+        Some(recorder) if status == Status::HorizonReached => {
+            Some(Evidence::RewardSteps(recorder.finish(&changes)))
+        }
+        Some(_) => None,
+        None if options.evidence => iteration.settle(&mut lower, &mut upper, discount),
+        None => None,
+    };
     let policy = match steps {
         _ if !options.policy => None,
         Some(steps) => Some(Policy::time_varying(steps, model.num_states(), &changes)),
@@ -66,7 +76,7 @@ pub(super) fn cumulative(
         status,
         iterations: control.iterations,
         policy,
-        evidence: None,
+        evidence,
         history: vec![],
     })
 }
@@ -78,12 +88,14 @@ pub(super) fn instantaneous(
     step: u64,
     players: Players,
     options: &SolverOptions<'_>,
-) -> Solution {
+) -> Result<Solution, SolveError> {
     let mut iteration = Iteration::new(model, None, players);
     let values = |side| (0..model.num_states()).map(|s| costs::written(rewards.of_state(s), side)).collect();
     let (mut lower, mut upper): (Vec<f64>, Vec<f64>) = (values(Bound::Lower), values(Bound::Upper));
     let mut control = Control::new(options);
     let mut status = Status::HorizonReached;
+    let mut recorder = options.evidence.then(|| Recorder::new(model.num_states()));
+    let mut changes = vec![];
     while control.iterations < step {
         if let Some(reason) = control.stop() {
             status = reason;
@@ -91,22 +103,30 @@ pub(super) fn instantaneous(
             upper.fill(f64::INFINITY);
             break;
         }
-        iteration.step(&mut lower, 1.0, Bound::Lower);
-        iteration.step(&mut upper, 1.0, Bound::Upper);
+        let chosen = iteration.both(&mut lower, &mut upper, 1.0, &mut recorder)?;
+        if recorder.is_some() {
+            let states = iteration.operator.states.iter().zip(chosen);
+            changes.extend(states.map(|(&s, choice)| (s, control.iterations + 1, choice)));
+        }
         control.done(0.0);
     }
-    Solution {
+    let recorder = recorder.filter(|_| status == Status::HorizonReached);
+    Ok(Solution {
         values: ValueBounds { lower, upper },
         status,
         iterations: control.iterations,
         policy: None,
-        evidence: None,
+        evidence: recorder.map(|recorder| Evidence::RewardSteps(recorder.finish(&changes))),
         history: vec![],
-    }
+    })
 }
+
+/// How often bounds are moved until a step improves them.
+const MOVES: usize = 64;
 
 struct Iteration<'a> {
     model: &'a IntervalMdp,
+    maximises: bool,
     operator: Operator,
     /// States that stay where they are, and what they earn in every step, from below and from above.
     staying: Vec<(StateId, [f64; 2])>,
@@ -131,7 +151,7 @@ impl<'a> Iteration<'a> {
             (s, [Bound::Lower, Bound::Upper].map(earned))
         };
         let staying = staying.into_iter().map(of_state).collect();
-        Self { model, operator, staying }
+        Self { model, maximises: players.policy == Direction::Max, operator, staying }
     }
 
     fn zero(&self) -> Vec<f64> {
@@ -142,6 +162,70 @@ impl<'a> Iteration<'a> {
     fn largest(&self) -> f64 {
         let of_staying = self.staying.iter().map(|(_, earned)| earned[1]).fold(0.0, f64::max);
         self.operator.largest_cost().max(of_staying)
+    }
+
+    /// One step of both bounds, which is recorded; returns the choices of the side that the policy has to make true.
+    fn both(
+        &mut self,
+        lower: &mut [f64],
+        upper: &mut [f64],
+        discount: f64,
+        recorder: &mut Option<Recorder>,
+    ) -> Result<Vec<u32>, SolveError> {
+        let before = recorder.is_some().then(|| (lower.to_vec(), upper.to_vec()));
+        let of_lower = self.step(lower, discount, Bound::Lower);
+        let of_upper = self.step(upper, discount, Bound::Upper);
+        if let (Some(recorder), Some((old_lower, old_upper))) = (recorder.as_mut(), before) {
+            recorder.begin()?;
+            for state in StateId::first(lower.len()) {
+                let s = state.index();
+                if lower[s] != old_lower[s] {
+                    recorder.lower(state, lower[s]);
+                }
+                if upper[s] != old_upper[s] {
+                    recorder.upper(state, upper[s]);
+                }
+            }
+            recorder.end();
+        }
+        Ok(if self.maximises { of_lower } else { of_upper })
+    }
+
+    /// Makes bounds for ever such that a step improves them, as a proof of them needs: steps round, and bounds that a step
+    /// spoils by `e` are moved by `e/(1 − γ)`.
+    fn settle(&mut self, lower: &mut [f64], upper: &mut [f64], discount: f64) -> Option<Evidence> {
+        let room = 1.0 - discount.next_up();
+        let mut chosen = vec![];
+        for side in [Bound::Lower, Bound::Upper] {
+            let values: &mut [f64] = if side == Bound::Lower { lower } else { upper };
+            let sign = if side == Bound::Lower { 1.0 } else { -1.0 };
+            let mut moved = f64::MIN_POSITIVE;
+            // A few rounds, for moving them rounds as well.
+            for _ in 0..MOVES {
+                let mut next = values.to_vec();
+                let choices = self.step(&mut next, discount, side);
+                let spoilt = values.iter().zip(&next).map(|(v, n)| sign * (v - n)).fold(0.0, f64::max);
+                if spoilt <= 0.0 {
+                    if self.maximises == (side == Bound::Lower) {
+                        chosen = choices;
+                    }
+                    moved = 0.0;
+                    break;
+                }
+                moved = moved.max(2.0 * spoilt / room);
+                values.iter_mut().for_each(|value| *value = (*value - sign * moved).max(0.0));
+            }
+            if moved > 0.0 {
+                return None;
+            }
+        }
+        let all = || 0..lower.len();
+        Some(Evidence::RewardInductive(RewardInductive {
+            choices: self.operator.states.iter().copied().zip(chosen).collect(),
+            lower: unlike(lower, all(), 0.0),
+            upper: unlike(upper, all(), f64::INFINITY),
+            missed: vec![],
+        }))
     }
 
     /// One step; returns the choices made.
