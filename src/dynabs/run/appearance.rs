@@ -1,6 +1,7 @@
 //! How the directory of a run takes its place.
 
 use imdp::files::{StagedDirectory, claim, sync_directory};
+use imdp::formats::Format;
 use std::fs::{self, File};
 use std::io;
 use std::path::Path;
@@ -142,10 +143,12 @@ pub(super) fn settle(directory: &Path) -> io::Result<()> {
 /// Whether a file in the directory of a run is one that a run can have: the others are the user's.
 fn is_own(name: &str) -> bool {
     const STEMS: [&str; 2] = ["model", "rows"];
-    const EXTENSIONS: [&str; 7] = ["tra", "sta", "lab", "drn", "umb", "dynabs", "props"];
+    let is_ours = |extension| {
+        extension == "props" || Format::ALL.iter().any(|format| format.extensions().contains(&extension))
+    };
     let parts = name.split_once('.');
     [MANIFEST, PROBLEM, NOISE, SOLUTION].contains(&name)
-        || parts.is_some_and(|(stem, extension)| STEMS.contains(&stem) && EXTENSIONS.contains(&extension))
+        || parts.is_some_and(|(stem, extension)| STEMS.contains(&stem) && is_ours(extension))
 }
 
 /// Whether a file is one of the user's in the directory of a run, by its name.
