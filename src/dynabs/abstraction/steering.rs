@@ -16,7 +16,7 @@ pub fn demands(problem: &Problem) -> Demands {
     let (grid, labels) = (problem.grid(), problem.labels());
     let centers: Vec<Vec<f64>> = grid.axes().iter().map(|axis| axis.centers()).collect();
     let of_kind = |kind| {
-        let count = labels.count(kind) as usize;
+        let count = labels.count(kind);
         let cells = labels.iter().filter(move |(_, of_cell)| *of_cell == kind);
         let weight = 1.0 / count.div_ceil(count.div_ceil(REPRESENTATIVES).max(1)).max(1) as f64;
         let centers = &centers;
