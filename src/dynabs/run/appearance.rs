@@ -143,9 +143,12 @@ pub(super) fn settle(directory: &Path) -> io::Result<()> {
 fn is_own(name: &str) -> bool {
     const STEMS: [&str; 2] = ["model", "rows"];
     const EXTENSIONS: [&str; 7] = ["tra", "sta", "lab", "drn", "umb", "dynabs", "props"];
-    let parts = name.split_once('.');
-    [MANIFEST, PROBLEM, NOISE, SOLUTION].contains(&name)
-        || parts.is_some_and(|(stem, extension)| STEMS.contains(&stem) && EXTENSIONS.contains(&extension))
+    let is_part = |(stem, extension): (&str, &str)| match extension {
+        // Several structures have numbers.
+        "srew" | "trew" => STEMS.contains(&stem.trim_end_matches(|c: char| c.is_ascii_digit())),
+        extension => STEMS.contains(&stem) && EXTENSIONS.contains(&extension),
+    };
+    [MANIFEST, PROBLEM, NOISE, SOLUTION].contains(&name) || name.split_once('.').is_some_and(is_part)
 }
 
 /// Whether a file is one of the user's in the directory of a run, by its name.
