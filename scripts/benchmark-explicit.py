@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Times dynabs, Storm and PRISM on one large explicit model.
 
-    benchmark-explicit.py [--states N] [--runs R] [--directory DIR] [--dynabs PATH] [--prism PATH] [--storm PYTHON]
+    benchmark-explicit.py [--states N] [--runs R] [--directory DIR] [--dynabs PATH] [--prism PATH] [--python PATH]
 
 Writes a random model of about 16 million transitions without repeated rows (scripts/random-model.py), then asks
-every solver, each in a process of its own and one after the other, for Pmaxmin=? [ F<=16 "goal" ] in state 0.
+every solver, one after the other, the others by `dynabs-check crosscheck --as-is`, for Pmaxmin=? [ F<=16 "goal" ] in state 0.
 Prints wall time (the best of R runs), peak memory and ratios, and checks the targets: at most a quarter of Storm's
 time, a tenth of PRISM's, 40 bytes per transition. Solvers that are missing are skipped. Ends with 1 if values
-differ or a target is missed. Nothing else should be running. Storm is the Python that can import stormpy 2.
+differ or a target is missed. Nothing else should be running.
 """
 
 import argparse
@@ -20,18 +20,11 @@ import tempfile
 import time
 from pathlib import Path
 
-from crosscheck.engines import find
+from crosscheck.dynabs import Dynabs, Failure, add_engine_options, engine_options, find
 
 ROOT = Path(__file__).resolve().parent.parent
 PROPERTY = 'Pmaxmin=? [ F<=16 "goal" ]'
 CHOICES, SUCCESSORS = 4, 20
-STORM = """
-import sys, stormpy
-model = stormpy.build_model_from_drn[stormpy.Interval](sys.argv[1])
-goal = stormpy.parse_properties('Pmax=? [ F<=16 "goal" ]')[0]
-mode = stormpy.UncertaintyResolutionMode.MINIMIZE
-print("value", stormpy.model_checking(model, goal, uncertainty_resolution_mode=mode).get_value(0))
-"""
 
 
 def measure(command):
@@ -57,11 +50,16 @@ def measure(command):
     return seconds, report["peak"], report["output"]
 
 
-def value_in(output, name):
-    if name == "dynabs":
-        return json.loads(output)["results"][0]["lower"]
-    marker = "value " if name == "Storm" else "Result: "
-    return float(output.split(marker)[1].split()[0])
+def measure_engine(dynabs, engine, path):
+    """(seconds, peak bytes, value) of an engine that `dynabs-check crosscheck` hands this file; None if it is missing."""
+    try:
+        [finding] = dynabs.crosscheck(path, [PROPERTY], "--with", engine, "--as-is", "--memory", "12g", "--timeout", 3600)
+    except Failure as failure:
+        print(f"skipped: {failure}")
+        return None
+    if finding["value"] is None:
+        sys.exit(f"{engine} failed: {'; '.join(finding['notes'])}")
+    return finding["seconds"], (finding["peak_mib"] or 0) << 20, finding["value"][0]
 
 
 def write_model(stem, states):
@@ -73,18 +71,13 @@ def write_model(stem, states):
         return int(tra.readline().split()[2])
 
 
-def can_import_stormpy(python):
-    return subprocess.run([python, "-c", "import stormpy"], capture_output=True, check=False).returncode == 0
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--states", type=int, default=202_000)
     parser.add_argument("--runs", type=int, default=1)
     parser.add_argument("--directory", type=Path, help="keep the files here and reuse them")
     parser.add_argument("--dynabs", default=os.environ.get("DYNABS_CHECK", str(ROOT / "target/release/dynabs-check")))
-    parser.add_argument("--prism", default=os.environ.get("PRISM", "prism"))
-    parser.add_argument("--storm", default=sys.executable, metavar="PYTHON")
+    add_engine_options(parser)
     arguments = parser.parse_args()
     dynabs = find(arguments.dynabs) or find("dynabs-check")
     if dynabs is None:
@@ -98,21 +91,15 @@ def main():
         print(f"{transitions} transitions, {stem.with_suffix('.tra').stat().st_size >> 20} MB; {PROPERTY}")
 
         tra, drn = str(stem.with_suffix(".tra")), str(stem.with_suffix(".drn"))
-        commands = {"dynabs": [dynabs, "solve", tra, "-p", PROPERTY, "--json", "--quiet"]}
-        if can_import_stormpy(arguments.storm):
-            commands["Storm"] = [arguments.storm, "-c", STORM, drn]
-        else:
-            print("skipped: Storm (--storm PYTHON, one that has stormpy)")
-        if prism := find(arguments.prism):
-            options = ["-ex", "-javamaxmem", "12g", "-pf", PROPERTY]
-            commands["PRISM"] = [prism, "-importmodel", f"{tra},sta,lab", *options]
-        else:
-            print("skipped: PRISM (--prism PATH)")
-        results = {}
-        for name, command in commands.items():
-            runs = [measure(command) for _ in range(arguments.runs)]
-            seconds, peak, output = min(runs)
-            results[name] = seconds, peak, value_in(output, name)
+        engines = Dynabs(dynabs, engine_options(arguments)[2:])
+        solve = [dynabs, "solve", tra, "-p", PROPERTY, "--json", "--quiet"]
+        runs = [measure(solve) for _ in range(arguments.runs)]
+        seconds, peak, output = min(runs)
+        results = {"dynabs": (seconds, peak, json.loads(output)["results"][0]["lower"])}
+        for name, engine, path in (("Storm", "storm", drn), ("PRISM", "prism", tra)):
+            if arguments.engines in (engine, "all"):
+                runs = [measure_engine(engines, engine, path) for _ in range(arguments.runs)]
+                results |= {name: min(runs)} if None not in runs else {}
     sys.exit(0 if report(results, transitions) else 1)
 
 

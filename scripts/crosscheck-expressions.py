@@ -22,7 +22,7 @@ import tempfile
 from fractions import Fraction
 from pathlib import Path
 
-from crosscheck.engines import find
+from crosscheck.dynabs import find
 from crosscheck.exact import flipped, optimum, parity_value, size, steps
 from crosscheck.formulas import formulas
 

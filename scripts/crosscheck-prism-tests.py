@@ -25,7 +25,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from crosscheck.engines import find
+from crosscheck.dynabs import find
 
 TOLERANCE = 1e-5
 FORMATS = ("tra", "drn", "umb", "pexp")

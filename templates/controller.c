@@ -2,25 +2,34 @@
  *
 {{ promise }}
  *
- * {{ function }}(x, k, u)
+ * {{ function }}(x, k, {% if memory.is_some() %}memory, {% endif %}u)
  *
- * looks at the state x after k groups of {{ group }} steps. If it returns STEER, u holds the inputs of the next
+{% match law %}{% when LawSource::Steering(_) %} * looks at the state x after k groups of {{ group }} steps. If it returns STEER, u holds the inputs of the next
  * group, those of the first step first, each of them in U. Any other status is final and leaves u as it was:
- *
- *   REACHED    the goal is reached: the task is done
- *   UNSAFE     the cell of x meets the unsafe region: the task has failed
+{% when LawSource::Centered(_) %} * looks at the state x after k steps.{% if memory.is_some() %} A run begins with *memory = {{ upper }}_START; what has been done so far
+ * is remembered there, so every state of the run is looked at once, in order.{% endif %} If it returns APPLY, u holds the input of the next step. Any other status is
+ * final and leaves u as it was:
+{% endmatch %} *
+ *   REACHED    {% if memory.is_some() %}the task is done{% else %}the goal is reached: the task is done{% endif %}
+ *   UNSAFE     {% if memory.is_some() %}the task has failed{% else %}{% match law %}{% when LawSource::Steering(_) %}the cell of x meets the unsafe region{% when LawSource::Centered(_) %}the cell of x is not safe{% endmatch %}: the task has failed{% endif %}
  *   OUTSIDE    x is outside the partition, or not a number: the task has failed
- *   NO_ACTION  no target can be steered to from the whole cell of x without leaving U
+ *   NO_ACTION  {% match law %}{% when LawSource::Steering(_) %}no target can be steered to from the whole cell of x without leaving U{% when LawSource::Centered(_) %}nothing can be done from the cell of x{% endmatch %}
  *   OVER       the horizon has passed; a horizon of 0 is unlimited, then k is ignored
  *
- * No allocation, no state, no library: every table is constant, and so is the memory used. Compile as C99
+{% match law %}{% when LawSource::Steering(_) %} * No allocation, no state, no library: every table is constant, and so is the memory used. Compile as C99
  * without contraction of products and sums, and the results are those of dynabs bit by bit:
  *
  *   cc -std=c99 -O2 -ffp-contract=off -c {{ file }}
  *
  * (With contraction u differs in the last digits, and still is in U. On x87 add -msse2 -mfpmath=sse.)
  */
-#include <stdint.h>
+{% when LawSource::Centered(_) %} * No allocation, no {% if memory.is_some() %}other {% endif %}state: every table is constant, and so is the memory used. Compile as C99 without contraction
+ * of products and sums, and the results are those of dynabs bit by bit:
+ *
+ *   cc -std=c99 -O2 -ffp-contract=off -c {{ file }}      (link with -lm)
+ */
+#include <math.h>
+{% endmatch %}#include <stdint.h>
 
 #ifdef __clang__
 #pragma STDC FP_CONTRACT OFF
@@ -28,11 +37,12 @@
 
 #define {{ upper }}_STATES {{ states }}
 #define {{ upper }}_INPUTS {{ inputs }}
-#define {{ upper }}_GROUP {{ group }}
-#define {{ upper }}_HORIZON {{ horizon }}u
-
+{% if let LawSource::Steering(_) = law %}#define {{ upper }}_GROUP {{ group }}
+{% endif %}#define {{ upper }}_HORIZON {{ horizon }}u
+{% if let Some(m) = memory %}#define {{ upper }}_START {{ m.memories }}
+{% endif %}
 enum {{ prefix }}_status {
-    {{ upper }}_STEER = 0,
+    {{ upper }}_{{ act }} = 0,
     {{ upper }}_REACHED = 1,
     {{ upper }}_UNSAFE = 2,
     {{ upper }}_OUTSIDE = 3,
@@ -41,21 +51,25 @@ enum {{ prefix }}_status {
 };
 
 enum {{ prefix }}_status {{ function }}(
-    const double x[{{ upper }}_STATES], uint32_t k, double u[{{ upper }}_GROUP][{{ upper }}_INPUTS]);
+    const double x[{{ upper }}_STATES], uint32_t k,{% if memory.is_some() %} uint32_t *memory,{% endif %} double {{ array }});
 
-/* u = constant + target_gain * target + state_gain * x, for all steps of a group. */
+{% match law %}{% when LawSource::Steering(s) %}/* u = constant + target_gain * target + state_gain * x, for all steps of a group. */
 static const double constant[{{ upper }}_GROUP * {{ upper }}_INPUTS] = {
-{{ constant }}
+{{ s.constant }}
 };
 
 static const double target_gain[{{ upper }}_GROUP * {{ upper }}_INPUTS][{{ upper }}_STATES] = {
-{{ target_gain }}
+{{ s.target_gain }}
 };
 
 static const double state_gain[{{ upper }}_GROUP * {{ upper }}_INPUTS][{{ upper }}_STATES] = {
-{{ state_gain }}
+{{ s.state_gain }}
 };
-
+{% when LawSource::Centered(c) %}/* The period of every coordinate, 0 where it is not periodic. */
+static const double period[{{ upper }}_STATES] = {
+{{ c.period }}
+};
+{% endmatch %}
 /* The faces of the cells, dimension after dimension, and where each dimension starts. */
 static const double faces[{{ num_faces }}] = {
 {{ faces }}
@@ -65,19 +79,68 @@ static const uint32_t first_face[{{ upper }}_STATES + 1] = {
 {{ first_face }}
 };
 
-/* How far apart in the numbering two neighbouring cells in each dimension are. */
+{% if let LawSource::Centered(c) = law %}/* The centers of the cells, dimension after dimension: one less than faces. */
+static const double centers[{{ c.num_centers }}] = {
+{{ c.centers }}
+};
+
+{% endif %}/* How far apart in the numbering two neighbouring cells in each dimension are. */
 static const uint32_t stride[{{ upper }}_STATES] = {
 {{ stride }}
 };
 
-/* What a cell is: 0 neither, 1 goal, 2 unsafe. */
+{% if let Some(m) = memory %}/* The class of every cell. The state in a cell of class i is in the regions of certain[i], and perhaps in others of
+ * possible[i]: a bit each. */
+static const uint32_t class_of[{{ num_cells }}] = {
+{{ m.class_of }}
+};
+
+static const uint32_t certain[{{ m.classes }}] = {
+{{ m.certain }}
+};
+
+static const uint32_t possible[{{ m.classes }}] = {
+{{ m.possible }}
+};
+
+/* What a memory becomes with the regions that a state is in, row by row; the last row is for the first state of a run.
+ * {{ m.done }} is done, {{ m.failed }} failed. */
+static const uint32_t next_memory[({{ m.memories }} + 1) * {{ m.letters }}] = {
+{{ m.next }}
+};
+
+/* Region r has the shapes from first_shape[r] on, shape s the half-spaces from first_half_space[s] on: normal * x < offset
+ * if it is strict, else <=. */
+static const uint32_t first_shape[{{ m.regions }} + 1] = {
+{{ m.first_shape }}
+};
+
+static const uint32_t first_half_space[{{ m.shapes }} + 1] = {
+{{ m.first_half_space }}
+};
+
+static const double normal[{{ m.half_spaces }}][{{ upper }}_STATES] = {
+{{ m.normal }}
+};
+
+static const double offset[{{ m.half_spaces }}] = {
+{{ m.offset }}
+};
+
+static const uint8_t strict[{{ m.half_spaces }}] = {
+{{ m.strict }}
+};
+
+{% else %}/* What a cell is: 0 neither, 1 goal, 2 unsafe. */
 static const uint8_t kind[{{ num_cells }}] = {
 {{ kind }}
 };
 
-/* Cell i has the entries first_entry[i] to first_entry[i + 1] - 1. Each of them steers to its target from
+{% endif %}/* {% if memory.is_some() %}Memory m in cell i is number m * {{ num_cells }} + i. Number{% else %}Cell{% endif %} i has the entries first_entry[i] to first_entry[i + 1] - 1. Each of them {% match law %}{% when LawSource::Steering(_) %}steers to its target from
  * steps_left groups before the horizon on, or earlier, until the next entry takes over. */
-static const uint32_t first_entry[{{ num_cells }} + 1] = {
+{% when LawSource::Centered(_) %}applies its input from steps_left
+ * steps before the horizon on, or earlier, until the next entry takes over. */
+{% endmatch %}static const uint32_t first_entry[{{ num_starts }} + 1] = {
 {{ first_entry }}
 };
 
@@ -85,14 +148,22 @@ static const uint32_t steps_left[{{ num_entries }}] = {
 {{ steps_left }}
 };
 
-static const uint32_t target_of[{{ num_entries }}] = {
-{{ target_of }}
+static const uint32_t {{ action_of }}[{{ num_entries }}] = {
+{{ actions }}
 };
 
-static const double target[{{ num_targets }}][{{ upper }}_STATES] = {
-{{ target }}
+{% match law %}{% when LawSource::Steering(s) %}static const double target[{{ s.num_targets }}][{{ upper }}_STATES] = {
+{{ s.target }}
+};
+{% when LawSource::Centered(c) %}/* u = nominal - gain * (x - center of the cell). */
+static const double nominal[{{ c.num_nominal }}][{{ c.array_inputs }}] = {
+{{ c.nominal }}
 };
 
+static const double gain[{{ c.array_inputs }}][{{ upper }}_STATES] = {
+{{ c.gain }}
+};
+{% endmatch %}
 /* How many of the ascending faces are at or below x. */
 static uint32_t faces_passed(const double *face, uint32_t count, double x)
 {
@@ -108,26 +179,84 @@ static uint32_t faces_passed(const double *face, uint32_t count, double x)
     return low;
 }
 
-enum {{ prefix }}_status {{ function }}(
-    const double x[{{ upper }}_STATES], uint32_t k, double u[{{ upper }}_GROUP][{{ upper }}_INPUTS])
+{% if memory.is_some() %}/* Whether a state is in a region. */
+static int contains(uint32_t region, const double *y)
 {
-    const double *aim;
+    uint32_t s, h, j;
+    for (s = first_shape[region]; s < first_shape[region + 1]; ++s) {
+        int inside = 1;
+        for (h = first_half_space[s]; inside && h < first_half_space[s + 1]; ++h) {
+            double sum = 0;
+            for (j = 0; j < {{ upper }}_STATES; ++j) {
+                const double product = normal[h][j] * y[j];
+                sum += product;
+            }
+            inside = strict[h] ? sum < offset[h] : sum <= offset[h];
+        }
+        if (inside) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+{% endif %}enum {{ prefix }}_status {{ function }}(
+    const double x[{{ upper }}_STATES], uint32_t k,{% if memory.is_some() %} uint32_t *memory,{% endif %} double {{ array }})
+{
+{% match law %}{% when LawSource::Steering(_) %}    const double *aim;
     uint32_t cell = 0, left, entry, i, j;
     for (j = 0; j < {{ upper }}_STATES; ++j) {
         const uint32_t count = first_face[j + 1] - first_face[j];
         const uint32_t passed = faces_passed(faces + first_face[j], count, x[j]);
         if (passed == 0 || passed == count) {
-            return {{ upper }}_OUTSIDE;
+{% when LawSource::Centered(_) %}    double y[{{ upper }}_STATES], c[{{ upper }}_STATES];
+    uint32_t cell = 0, left, entry, i, j;
+    for (j = 0; j < {{ upper }}_STATES; ++j) {
+        const uint32_t count = first_face[j + 1] - first_face[j];
+        const double *face = faces + first_face[j];
+        uint32_t passed;
+        y[j] = x[j];
+        if (period[j] > 0 && isfinite(y[j])) {
+            const double turns = floor((y[j] - face[0]) / period[j]);
+            const double back = turns * period[j];
+            y[j] -= back;
+            if (y[j] < face[0] || y[j] >= face[count - 1]) {
+                y[j] = face[0];
+            }
         }
-        cell += (passed - 1) * stride[j];
+        passed = faces_passed(face, count, y[j]);
+        if (passed == 0 || passed == count) {
+{% endmatch %}{% if let Some(m) = memory %}            *memory = {{ m.failed }};
+{% endif %}            return {{ upper }}_OUTSIDE;
+        }
+{% if let LawSource::Centered(_) = law %}        c[j] = centers[first_face[j] - j + passed - 1];
+{% endif %}        cell += (passed - 1) * stride[j];
     }
-    if (kind[cell] == 1) {
+{% if let Some(m) = memory %}    if (*memory <= {{ m.memories }}) {
+        const uint32_t class = class_of[cell];
+        uint32_t letter = certain[class];
+        for (i = 0; i < {{ m.regions }}; ++i) {
+            const uint32_t bit = (uint32_t)1 << i;
+            if ((possible[class] & ~certain[class] & bit) != 0 && contains(i, {{ state }})) {
+                letter |= bit;
+            }
+        }
+        *memory = next_memory[*memory * {{ m.letters }} + letter];
+    }
+    if (*memory == {{ m.done }}) {
+        return {{ upper }}_REACHED;
+    }
+    if (*memory >= {{ m.memories }}) {
+        return {{ upper }}_UNSAFE;
+    }
+    cell += *memory * {{ num_cells }};
+{% else %}    if (kind[cell] == 1) {
         return {{ upper }}_REACHED;
     }
     if (kind[cell] == 2) {
         return {{ upper }}_UNSAFE;
     }
-#if {{ upper }}_HORIZON > 0
+{% endif %}#if {{ upper }}_HORIZON > 0
     if (k >= {{ upper }}_HORIZON) {
         return {{ upper }}_OVER;
     }
@@ -143,7 +272,7 @@ enum {{ prefix }}_status {{ function }}(
     if (entry == first_entry[cell]) {
         return {{ upper }}_NO_ACTION;
     }
-    aim = target[target_of[entry - 1]];
+{% match law %}{% when LawSource::Steering(_) %}    aim = target[target_of[entry - 1]];
     for (i = 0; i < {{ upper }}_GROUP * {{ upper }}_INPUTS; ++i) {
         double sum = constant[i];
         for (j = 0; j < {{ upper }}_STATES; ++j) {
@@ -156,5 +285,13 @@ enum {{ prefix }}_status {{ function }}(
         }
         u[i / {{ upper }}_INPUTS][i % {{ upper }}_INPUTS] = sum;
     }
-    return {{ upper }}_STEER;
+{% when LawSource::Centered(_) %}    for (i = 0; i < {{ upper }}_INPUTS; ++i) {
+        double sum = nominal[input_of[entry - 1]][i];
+        for (j = 0; j < {{ upper }}_STATES; ++j) {
+            const double product = gain[i][j] * (y[j] - c[j]);
+            sum -= product;
+        }
+        u[i] = sum;
+    }
+{% endmatch %}    return {{ upper }}_{{ act }};
 }

@@ -19,6 +19,12 @@ def write(name, data):
     os.replace(name + ".part", name)
 
 
+def read(path):
+    if path.endswith(".drn"):
+        return stormpy.build_model_from_drn[stormpy.Interval](path)
+    return stormpy.build_model_from_umb(path)
+
+
 def answer(model, environment, number, question):
     mode = stormpy.UncertaintyResolutionMode
     result = stormpy.model_checking(
@@ -45,7 +51,7 @@ def main():
     start = time.monotonic()
     with open(sys.argv[1]) as file:
         request = json.load(file)
-    model = stormpy.build_model_from_umb(request["model"])
+    model = read(request["model"])
     environment = stormpy.environments.default(model)
     solver = environment.solver().min_max()
     solver.precision = stormpy.Rational(request["precision"])

@@ -3,7 +3,7 @@ use crate::common::controllers::Loop;
 use crate::common::shipped_models;
 use crate::common::{c_compiler, compile_c};
 use dynabs::controller::export::{c_source, write_csv, write_json};
-use dynabs::controller::{Controller, Decision, InputCheck, Noise, Simulation};
+use dynabs::controller::{Controller, Decision, InputCheck, Noise, RunMemory, Simulation};
 use dynabs::partition::{CellId, CellKind};
 use dynabs::problem::GaussianNoise;
 use rand::{Rng, SeedableRng};
@@ -33,15 +33,16 @@ fn it_does_what_the_policy_says() {
                     CellKind::Goal => Decision::Reached,
                     CellKind::Unsafe => Decision::Unsafe,
                     CellKind::Ordinary => match policy.row(abstraction.model.choices(), state, k) {
-                        Some(target) => Decision::Steer { target: target.0 },
+                        Some(target) => Decision::Act { action: target.0 },
                         None => Decision::NoAction,
                     },
                 };
                 assert_eq!(controller.decide_in(cell, k), expected, "{model}, cell {}, step {k}", cell.0);
             }
         }
-        let over =
-            controller.horizon().map(|horizon| controller.decide(problem.initial_state().unwrap(), horizon));
+        let over = controller
+            .horizon()
+            .map(|horizon| controller.decide_in(problem.initial_cell().unwrap(), horizon));
         assert!(over.is_none_or(|decision| decision == Decision::Over));
     }
 }
@@ -58,7 +59,7 @@ fn inputs_are_in_u_from_random_states() {
         for _ in 0..20_000 {
             let x = closed.random_state(&mut rng);
             let k = rng.next_u64() % (steps(controller) + 1);
-            if let Decision::Steer { .. } = controller.control(&x, k, &mut u) {
+            if let Decision::Act { .. } = controller.control(&x, k, &mut RunMemory::default(), &mut u) {
                 steered += 1;
                 for step in u.chunks_exact(controller.step_inputs()) {
                     assert_eq!(check.violation(step), None, "{model}: {u:?} in {x:?} at {k}");
@@ -92,8 +93,10 @@ fn every_group_of_steps_ends_at_its_target() {
                 let instants: Vec<_> =
                     trajectory.steps.iter().filter(|step| step.decision.is_some()).collect();
                 for pair in instants.windows(2) {
-                    let Some(Decision::Steer { target }) = pair[0].decision else { panic!("{:?}", pair[0]) };
-                    let aim = closed.controller.target_point(target);
+                    let Some(Decision::Act { action: target }) = pair[0].decision else {
+                        panic!("{:?}", pair[0])
+                    };
+                    let aim = closed.controller.action(target);
                     let is_off_by = |noise: &Vec<f64>| {
                         (0..n).all(|j| {
                             let scale = 1.0 + pair[0].state[j].abs() + aim[j].abs();
@@ -138,7 +141,7 @@ fn json_says_everything() {
             }
             for cell in 0..controller.num_cells() {
                 let expected = match controller.decide_in(CellId(cell), k) {
-                    Decision::Steer { target } => Some(target),
+                    Decision::Act { action: target } => Some(target),
                     _ => None,
                 };
                 assert_eq!(action.get(&cell).copied(), expected, "{model}, cell {cell}, step {k}");
@@ -147,7 +150,7 @@ fn json_says_everything() {
         for (&cell, &target) in &action {
             let point: Vec<f64> =
                 serde_json::from_value(json["targets"][target.to_string()].clone()).unwrap();
-            assert_eq!(point, controller.target_point(target));
+            assert_eq!(point, controller.action(target));
             assert_eq!(json["cells"]["bounds"][cell as usize], controller.bound(CellId(cell)));
         }
         assert_eq!(json["promise"]["numbers"]["bound"], closed.answer.lower);
@@ -173,20 +176,20 @@ fn csv_covers_every_step_once() {
         assert_eq!(controller.cell(&[number("center1"), number("center2")]), Some(CellId(cell)));
         assert!(number("upper1") > number("center1") && number("upper2") > number("center2"));
         if line[column("action")].is_empty() {
-            assert!((0..8).all(|k| !matches!(controller.decide_in(CellId(cell), k), Decision::Steer { .. })));
+            assert!((0..8).all(|k| !matches!(controller.decide_in(CellId(cell), k), Decision::Act { .. })));
             continue;
         }
         for k in number("from_step") as u64..=number("to_step") as u64 {
-            let Decision::Steer { target } = controller.decide_in(CellId(cell), k) else {
+            let Decision::Act { action: target } = controller.decide_in(CellId(cell), k) else {
                 panic!("{line:?}")
             };
             assert_eq!(line[column("action")], format!("a_{target}"));
-            assert_eq!([number("target1"), number("target2")], controller.target_point(target));
+            assert_eq!([number("target1"), number("target2")], controller.action(target));
             assert!(seen.insert((cell, k), ()).is_none());
         }
     }
     let steering =
-        |&(cell, k): &(u32, u64)| matches!(controller.decide_in(CellId(cell), k), Decision::Steer { .. });
+        |&(cell, k): &(u32, u64)| matches!(controller.decide_in(CellId(cell), k), Decision::Act { .. });
     let all = (0..grid.num_cells()).flat_map(|cell| (0..8).map(move |k| (cell, k)));
     assert_eq!(all.filter(steering).count(), seen.len());
 }
@@ -213,7 +216,7 @@ int main(void)
 fn compare_with_c(compiler: &str, closed: &Loop, seed: u64) {
     let controller = &closed.controller;
     let scratch = tempfile::TempDir::new().unwrap();
-    let source = c_source(controller, &closed.problem, "controller.c").unwrap();
+    let source = c_source(controller, closed.problem.name(), "controller.c").unwrap();
     let name = closed.problem.name().to_lowercase();
     let harness = HARNESS.replace("PREFIX", &name.to_uppercase()).replace("prefix", &name);
     compile_c(compiler, scratch.path(), &source, &harness);
@@ -238,8 +241,8 @@ fn compare_with_c(compiler: &str, closed: &Loop, seed: u64) {
     let mut statuses = BTreeMap::new();
     for ((x, k), answer) in queries.iter().zip(program.stdout.chunks_exact(size)) {
         let mut u = vec![0.0; controller.inputs()];
-        let status: u32 = match controller.control(x, u64::from(*k), &mut u) {
-            Decision::Steer { .. } | Decision::Apply { .. } => 0,
+        let status: u32 = match controller.control(x, u64::from(*k), &mut RunMemory::default(), &mut u) {
+            Decision::Act { .. } => 0,
             Decision::Reached => 1,
             Decision::Unsafe => 2,
             Decision::Outside => 3,

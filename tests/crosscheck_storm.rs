@@ -4,10 +4,11 @@
 use crate::common::{abstraction, reference_mode};
 use dynabs::abstraction::Abstraction;
 use imdp::engines::{
-    Agreement, CrossCheckOptions, Engine, Finding, Prism, RunLimits, Storm, Subject, cross_check, raised,
+    Agreement, CrossCheckOptions, Engine, Finding, Handed, Prism, RunLimits, Storm, Subject, cross_check,
+    raised,
 };
 use imdp::model::IntervalMdp;
-use imdp::property::{PathFormula, Property, Resolution};
+use imdp::property::{Inquiry, PathFormula, Property, Resolution};
 use imdp::solver::SolverOptions;
 use std::time::Duration;
 
@@ -38,14 +39,15 @@ fn engines() -> Vec<Box<dyn Engine>> {
 
 fn ask(model: &IntervalMdp, properties: &[Property]) -> Vec<Finding> {
     let raised = raised(model).unwrap();
-    let subject = Subject { model, raised: raised.as_ref(), files: None };
+    let subject = Subject { model, raised: raised.as_ref(), handed: Handed::Copy };
     let engines = engines();
     let engines: Vec<&dyn Engine> = engines.iter().map(|engine| &**engine).collect();
     let options = CrossCheckOptions {
         solver: SolverOptions { epsilon: 1e-10, ..SolverOptions::default() },
         limits: RunLimits { timeout: Duration::from_secs(300), memory_mib: 4096, interrupt: None },
     };
-    cross_check(&subject, properties, &engines, &options).unwrap()
+    let inquiries: Vec<_> = properties.iter().cloned().map(Inquiry::Probability).collect();
+    cross_check(&subject, &inquiries, &engines, &options).unwrap()
 }
 
 /// The task and the same without a bound, for every operator.

@@ -6,7 +6,7 @@
 //! would who forgets something; this test would notice.
 
 use dynabs::abstraction::inputs::InputAbstraction;
-use dynabs::controller::{Decision, InputController};
+use dynabs::controller::{Controller, Decision};
 use dynabs::landing::Question;
 use dynabs::model_file::{Document, StatedProblem};
 use dynabs::partition::CellId;
@@ -279,13 +279,13 @@ fn bounds_enclose_the_truth() {
     for case in cases() {
         let abstraction = InputAbstraction::new(&case.problem).unwrap();
         let solution = abstraction.question().solve(&SolverOptions::default());
-        let controller = InputController::new(&case.problem, &abstraction, &solution);
-        let decide = |cell: usize, elapsed: u64| match controller.decide_in(
+        let controller = Controller::of_inputs(&case.problem, &abstraction, &solution);
+        let decide = |cell: usize, elapsed: u64| match controller.decide(
             Standing::Open(0),
             CellId(cell as u32),
             elapsed,
         ) {
-            Decision::Apply { input } => Some(input),
+            Decision::Act { action } => Some(action),
             _ => None,
         };
         let (of_controller, best) = case.truth(decide);

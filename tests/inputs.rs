@@ -1,7 +1,7 @@
 //! Actions that are inputs, from the model file to the closed loop.
 
 use dynabs::abstraction::inputs::InputAbstraction;
-use dynabs::controller::{Decision, InputController, InputSimulation, ParameterChoice, RunMemory};
+use dynabs::controller::{Controller, Decision, ParameterChoice, RunMemory, Simulation};
 use dynabs::guarantee::Safety;
 use dynabs::model_file::{Document, StatedProblem};
 use dynabs::problem::InputProblem;
@@ -63,8 +63,8 @@ fn bounds_enclose_what_happens() {
         let problem = problem(&car(task, 20));
         let abstraction = InputAbstraction::new(&problem).unwrap();
         let solution = abstraction.question().solve(&SolverOptions::default());
-        let controller = InputController::new(&problem, &abstraction, &solution);
-        let simulation = InputSimulation::new(&problem, &controller, ParameterChoice::Random, 10);
+        let controller = Controller::of_inputs(&problem, &abstraction, &solution);
+        let simulation = Simulation::of_inputs(&problem, &controller, ParameterChoice::Random, 10);
         let tally = simulation.tally(&[3.0, -2.0], 1, 2000, &());
         let seen = tally.satisfaction(Safety::EveryStep, 1e-6);
         let cell = problem.initial_cell().unwrap().index();
@@ -102,11 +102,11 @@ fn inputs_come_from_the_law() {
     let problem = problem(&car(reach(), 10));
     let abstraction = InputAbstraction::new(&problem).unwrap();
     let solution = abstraction.question().solve(&SolverOptions::default());
-    let controller = InputController::new(&problem, &abstraction, &solution);
+    let controller = Controller::of_inputs(&problem, &abstraction, &solution);
     let mut u = [0.0; 2];
     let first = |x: &[f64], k, u: &mut [f64]| controller.control(x, k, &mut RunMemory::default(), u);
-    let Decision::Apply { input } = first(&[3.0, -2.0], 0, &mut u) else { panic!("nothing to do") };
-    assert_eq!(u, controller.nominal(input));
+    let Decision::Act { action } = first(&[3.0, -2.0], 0, &mut u) else { panic!("nothing to do") };
+    assert_eq!(u, controller.action(action));
     assert_eq!(first(&[5.0, -2.0], 0, &mut u), Decision::Reached);
     assert_eq!(first(&[5.0, 2.0], 0, &mut u), Decision::Unsafe);
     assert_eq!(first(&[f64::NAN, 2.0], 0, &mut u), Decision::Outside);

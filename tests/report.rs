@@ -3,7 +3,7 @@ use crate::common::{document, reference_mode, root, shipped_models};
 use assert_cmd::Command;
 use dynabs::abstraction::compile;
 use dynabs::controller::Controller;
-use dynabs::report::{CROSS_CHECK, CrossChecks, Material, MaterialOptions, Picture, page, pictures};
+use dynabs::report::{CROSS_CHECK, Material, MaterialOptions, Picture, page, pictures, read_cross_checks};
 use dynabs::run::{Manifest, Run, WriteOptions, write_run};
 use imdp::formats::sha256_hex;
 use imdp::solver::{Answer, SolverOptions};
@@ -39,7 +39,7 @@ fn reported(directory: &Path, times: Vec<(&'static str, Duration)>) -> Reported 
     let solver = SolverOptions { policy: true, ..SolverOptions::default() };
     let answer = run.solve(&solver).unwrap();
     let controller = Controller::new(&run.problem, &run.abstraction, &answer).unwrap();
-    let cross_checks = CrossChecks::read(directory, &run.manifest).unwrap();
+    let cross_checks = read_cross_checks(directory, &run.manifest).unwrap();
     let options = MaterialOptions { seed: 1, runs: 300, drawn: 12, times, cross_checks };
     let material = Material::new(&run, &answer, &controller, options, &());
     let (page, pictures) = (page(&material).unwrap(), pictures(&material));

@@ -2,9 +2,9 @@
 use crate::common::{document, root};
 use assert_cmd::Command;
 use dynabs::abstraction::compile;
-use dynabs::run::{Manifest, Run, WriteOptions, solution_options, write_run};
+use dynabs::run::{InputRun, Manifest, Run, WriteOptions, solution_options, write_run};
 use imdp::property::Property;
-use imdp::solution_file;
+use imdp::solution_file::{self, SolutionSubject};
 use imdp::solver::{Answer, Event, SolverOptions, solve};
 use std::fs;
 use std::path::Path;
@@ -81,10 +81,19 @@ fn damaged_solutions_are_refused() {
     let end = good.iter().position(|&byte| byte == b'\n').unwrap();
     let header: serde_json::Value = serde_json::from_slice(&good[..end]).unwrap();
     let sha256 = header["model"].as_str().unwrap();
-    assert!(solution_file::read(&good, property, model, sha256).is_ok());
+    let read = |bytes: &[u8], property: &Property, sha256: &str| {
+        let subject = SolutionSubject {
+            property: &property.to_string(),
+            sha256,
+            states: model.num_states(),
+            is_choice: &|state, choice| model.choices().row_of_choice(state, choice).is_some(),
+        };
+        solution_file::read(bytes, &subject)
+    };
+    assert!(read(&good, property, sha256).is_ok());
 
     let refused = |bytes: &[u8], property: &Property, sha256: &str, what: &str| {
-        let error = solution_file::read(bytes, property, model, sha256).unwrap_err().to_string();
+        let error = read(bytes, property, sha256).unwrap_err().to_string();
         assert!(error.contains(what), "{error}");
     };
     refused(&good, property, "0", "of the model");
@@ -138,4 +147,33 @@ fn commands_say_the_same_with_and_without_it() {
     // The page lists the files of the run; what it shows is the same.
     let shown = |page: &str| page.split("Where this comes from").next().unwrap().to_owned();
     assert!(shown(&with[0]) == shown(&without[0]));
+}
+
+/// Reaching, staying and tasks with a memory, with a horizon and without: what is kept is what solving again gives.
+#[test]
+fn a_stored_solution_of_inputs_is_the_computed_one() {
+    let scratch = TempDir::new().unwrap();
+    for (task, horizon) in [("reach", "8"), ("reach", "\"infinite\""), ("stay", "5"), ("sequence", "9")] {
+        let file = root().join(format!("examples/tasks/{task}.json"));
+        let run = scratch.path().join(format!("{task}{}", horizon.len()));
+        let mut command = Command::cargo_bin("dynabs-compile").unwrap();
+        command.arg(&file).arg("-o").arg(&run).args(["--no-tra", "--quiet", "--solve"]);
+        command.args(["--set", &format!("/task/horizon={horizon}"), "--set", "/partition/cells=[12,12]"]);
+        assert!(matches!(command.output().unwrap().status.code(), Some(0 | 1 | 3)), "{task}");
+        assert!(run.join("solution.bin").exists(), "{task}");
+        let opened = InputRun::open(&run).unwrap();
+        let (stored, computed) =
+            (opened.solution(&SolverOptions::default()), opened.solve(&SolverOptions::default()));
+        assert_eq!((stored.status, stored.iterations), (computed.status, computed.iterations), "{task}");
+        assert_eq!(stored.values, computed.values, "{task}");
+        assert_eq!(stored.with_memory, computed.with_memory, "{task}");
+        assert_eq!(stored.policy, computed.policy, "{task}");
+
+        // It is looked at, and not believed when it is another one.
+        let mut bytes = fs::read(run.join("solution.bin")).unwrap();
+        let end = bytes.len() - 1;
+        bytes[end] ^= 1;
+        fs::write(run.join("solution.bin"), bytes).unwrap();
+        assert!(InputRun::open(&run).unwrap_err().to_string().contains("other bytes"), "{task}");
+    }
 }

@@ -3,10 +3,8 @@
 use crate::common::controllers::Loop;
 use crate::common::{c_compiler, compile_c, root};
 use dynabs::abstraction::inputs::InputAbstraction;
-use dynabs::controller::export::{input_c_source, write_input_csv, write_input_json};
-use dynabs::controller::{
-    Decision, InputController, InputSimulation, Noise, ParameterChoice, RunMemory, Simulation,
-};
+use dynabs::controller::export::{c_source, write_csv, write_input_json};
+use dynabs::controller::{Controller, Decision, Noise, ParameterChoice, RunMemory, Simulation};
 use dynabs::guarantee::Safety;
 use dynabs::landing::LandingSolution;
 use dynabs::model_file::{Document, StatedProblem};
@@ -114,8 +112,8 @@ fn runs_keep_what_is_promised() {
     let mut open = 0;
     for task in tasks() {
         let (problem, abstraction, solution) = solved(task.clone());
-        let controller = InputController::new(&problem, &abstraction, &solution);
-        let simulation = InputSimulation::new(&problem, &controller, ParameterChoice::Random, 1000);
+        let controller = Controller::of_inputs(&problem, &abstraction, &solution);
+        let simulation = Simulation::of_inputs(&problem, &controller, ParameterChoice::Random, 1000);
         for start in [[-2.0, 2.0], [1.3, 0.7], [-2.2, 0.1]] {
             let tally = simulation.tally(&start, 1, 2000, &());
             let seen = tally.satisfaction(Safety::EveryStep, 1e-6);
@@ -180,7 +178,7 @@ fn more_time_is_worth_more() {
 #[test]
 fn the_controller_remembers() {
     let (problem, abstraction, solution) = solved(sequence(json!(8)));
-    let controller = InputController::new(&problem, &abstraction, &solution);
+    let controller = Controller::of_inputs(&problem, &abstraction, &solution);
     let (mut memory, mut u) = (RunMemory::default(), [0.0; 2]);
     let mut look = |x: [f64; 2], k| (controller.control(&x, k, &mut memory, &mut u), memory.open());
     let (_, before) = look([1.19, 0.0], 0);
@@ -225,9 +223,9 @@ fn c_code_follows_the_memory() {
     let mut done = 0;
     for task in [sequence(json!(8)), formula("(F a) & G !b", "ltlf", 4)] {
         let (problem, abstraction, solution) = solved(task);
-        let controller = InputController::new(&problem, &abstraction, &solution);
+        let controller = Controller::of_inputs(&problem, &abstraction, &solution);
         let scratch = tempfile::TempDir::new().unwrap();
-        let source = input_c_source(&controller, problem.name(), "controller.c").unwrap();
+        let source = c_source(&controller, problem.name(), "controller.c").unwrap();
         compile_c(compiler, scratch.path(), &source, HARNESS);
 
         // Runs that jump anywhere, mostly within the partition.
@@ -255,7 +253,7 @@ fn c_code_follows_the_memory() {
             }
             let mut u = [0.0; 2];
             let status: u32 = match controller.control(x, u64::from(*k), &mut memory, &mut u) {
-                Decision::Steer { .. } | Decision::Apply { .. } => 0,
+                Decision::Act { .. } => 0,
                 Decision::Reached => 1,
                 Decision::Unsafe => 2,
                 Decision::Outside => 3,
@@ -282,7 +280,7 @@ fn write(directory: &Path, bytes: &[u8]) -> std::path::PathBuf {
 #[test]
 fn files_carry_the_memory() {
     let (problem, abstraction, solution) = solved(sequence(json!(8)));
-    let controller = InputController::new(&problem, &abstraction, &solution);
+    let controller = Controller::of_inputs(&problem, &abstraction, &solution);
     let (mut text, mut table) = (vec![], vec![]);
     write_input_json(&controller, "room", &mut text).unwrap();
     let value: Value = serde_json::from_slice(&text).unwrap();
@@ -296,7 +294,7 @@ fn files_carry_the_memory() {
             .unwrap()
             .contains("the run comes to a, then to c (not meeting b before)")
     );
-    write_input_csv(&controller, problem.grid(), &mut table).unwrap();
+    write_csv(&controller, problem.grid(), &mut table).unwrap();
     let table = String::from_utf8(table).unwrap();
     assert!(table.starts_with("memory,from_step,") && table.contains("\n1,0,"), "{}", &table[..200]);
 }

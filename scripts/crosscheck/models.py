@@ -7,8 +7,6 @@ from fractions import Fraction
 from pathlib import Path
 
 OPERATORS = ("maxmin", "maxmax", "minmin", "minmax")
-# What dynabs raises lower bounds of 0 to for PRISM, which refuses them.
-RAISED = "1e-300"
 
 
 @dataclass
@@ -20,13 +18,8 @@ class Model:
     labels: dict
     variables: dict = field(default_factory=dict)
     chain: bool = False
-    # Whether raising lower bounds of 0 changes values.
-    fragile: bool = False
 
-    def has_zeros(self):
-        return any(float(lower) == 0 for choices in self.states for row in choices for _, lower, _ in row)
-
-    def write_prism(self, stem, raise_zeros=False):
+    def write_prism(self, stem):
         """Writes stem.tra, stem.sta and stem.lab."""
         lines, choices, transitions = [], 0, 0
         for source, rows in enumerate(self.states):
@@ -35,9 +28,6 @@ class Model:
                 transitions += len(row)
                 head = f"{source}" if self.chain else f"{source} {choice}"
                 for target, lower, upper in row:
-                    if raise_zeros and float(lower) == 0:
-                        lower = RAISED
-                        upper = upper if float(upper) > 0 else lower
                     lines.append(f"{head} {target} [{lower},{upper}]\n")
         counts = [len(self.states), transitions] if self.chain else [len(self.states), choices, transitions]
         stem.with_suffix(".tra").write_text(" ".join(map(str, counts)) + "\n" + "".join(lines))
@@ -56,22 +46,6 @@ class Model:
         body = "".join(f"{state}: {' '.join(held[state])}\n" for state in sorted(held))
         stem.with_suffix(".lab").write_text(f"{header}\n{body}")
 
-    def write_drn(self, path):
-        """Writes Storm's format, with self loops for states without choices."""
-        choices = sum(max(1, len(rows)) for rows in self.states)
-        of_state = {}
-        for name, states in self.labels.items():
-            for state in states:
-                of_state.setdefault(state, []).append(name)
-        with open(path, "w") as out:
-            out.write("@type: MDP\n@value_type: double-interval\n@parameters\n\n@reward_models\n\n")
-            out.write(f"@nr_states\n{len(self.states)}\n@nr_choices\n{choices}\n@model\n")
-            for state, rows in enumerate(self.states):
-                out.write(" ".join(["state", str(state), *of_state.get(state, [])]) + "\n")
-                for choice, row in enumerate(rows or [[(state, "1", "1")]]):
-                    out.write(f"\taction {choice}\n")
-                    out.writelines(f"\t\t{to} : [{lower}, {upper}]\n" for to, lower, upper in sorted(row))
-
 
 @dataclass
 class Question:
@@ -88,7 +62,7 @@ def load_cases(directory):
         for case in json.loads(path.read_text()):
             states = [[[entry_of(text) for text in row.split(" + ")] for row in rows] for rows in case["states"]]
             chain = case.get("kind") == "idtmc"
-            model = Model(case["name"], states, case["labels"], case.get("variables", {}), chain, case.get("fragile", False))
+            model = Model(case["name"], states, case["labels"], case.get("variables", {}), chain)
             questions = [
                 Question(values["path"], operator, [Fraction(value) for value in exact.split()])
                 for values in case["values"]

@@ -1,31 +1,15 @@
 //! Choices of the library that an option names.
 
 use clap::ValueEnum;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use dynabs::abstraction::inputs::InputEncoding;
 use imdp::formats::{Encoding, Format, Names};
 
-/// The formats, as `--format` names them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum FormatName {
-    /// PRISM's explicit files: .tra, .sta and .lab.
-    Prism,
-    /// Storm's explicit text format, .drn.
-    Drn,
-    /// The unified Markov binary format that PRISM and Storm read, .umb.
-    Umb,
-    /// The compact format of this program, .dynabs.
-    Dynabs,
-}
-
-impl From<FormatName> for Format {
-    fn from(name: FormatName) -> Self {
-        match name {
-            FormatName::Prism => Self::Prism,
-            FormatName::Drn => Self::Drn,
-            FormatName::Umb => Self::Umb,
-            FormatName::Dynabs => Self::Native,
-        }
-    }
+/// Takes one of these formats by its name.
+pub(crate) fn format_names(formats: impl Iterator<Item = Format>) -> impl TypedValueParser<Value = Format> {
+    let names = formats.map(|format| PossibleValue::new(format.name()).help(format.about()));
+    PossibleValuesParser::new(names)
+        .try_map(|name| Format::of_name(&name).ok_or_else(|| format!("found no format {name}")))
 }
 
 /// The encodings, as `--encoding` names them.
@@ -54,36 +38,6 @@ impl From<EncodingName> for InputEncoding {
         match name {
             EncodingName::Plain | EncodingName::Rows => Self::Landing,
             EncodingName::Flat => Self::Flat,
-        }
-    }
-}
-
-/// The formats that models can be converted into, as `--to` names them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum AnyFormatName {
-    /// PRISM's explicit files: .tra, .sta and .lab.
-    Prism,
-    /// Storm's explicit text format, .drn.
-    Drn,
-    /// The unified Markov binary format that PRISM and Storm read, .umb.
-    Umb,
-    /// The compact format of this program, .dynabs.
-    Dynabs,
-    /// The text format of bmdp-tool, .txt: transitions and the states to be reached only.
-    Bmdp,
-    /// The NetCDF format of IntervalMDP.jl, .nc: transitions only; .json beside has what is asked.
-    Netcdf,
-}
-
-impl From<AnyFormatName> for Format {
-    fn from(name: AnyFormatName) -> Self {
-        match name {
-            AnyFormatName::Prism => Self::Prism,
-            AnyFormatName::Drn => Self::Drn,
-            AnyFormatName::Umb => Self::Umb,
-            AnyFormatName::Dynabs => Self::Native,
-            AnyFormatName::Bmdp => Self::Bmdp,
-            AnyFormatName::Netcdf => Self::Netcdf,
         }
     }
 }

@@ -48,7 +48,7 @@ fn cells(finding: &Finding) -> [String; HEADER.len()] {
         _ => "attains".to_owned(),
     });
     [
-        finding.engine.to_owned(),
+        finding.engine.clone(),
         or_dash(finding.version.clone()),
         or_dash(value),
         format!("[{lower:.12}, {upper:.12}]"),

@@ -33,11 +33,28 @@ impl From<RunDirectoryError> for CliError {
     fn from(error: RunDirectoryError) -> Self {
         match error {
             RunDirectoryError::Io { error, .. } if is_interruption(&error) => Self::Interrupted,
-            RunDirectoryError::Io { .. } | RunDirectoryError::Raced { .. } => {
-                Self::Failure(error.to_string())
-            }
-            _ => Self::Input(error.to_string()),
+            RunDirectoryError::Io { .. } => Self::Failure(error.to_string()),
+            RunDirectoryError::Raced { .. } => Self::Failure(format!("{error}{}", remedy(&error))),
+            _ => Self::Input(format!("{error}{}", remedy(&error))),
         }
+    }
+}
+
+/// What to type about an output directory: the library knows no options.
+fn remedy(error: &RunDirectoryError) -> &'static str {
+    match error {
+        RunDirectoryError::Foreign { .. } => {
+            "\n  Choose another name with -o; --force replaces only directories written by dynabs-compile."
+        }
+        RunDirectoryError::Exists { .. } => "\n  Choose another name with -o, or replace it with --force.",
+        RunDirectoryError::Raced { .. } => " Run it again, with --force if the other output may go.",
+        RunDirectoryError::DiskFull { .. } => {
+            "\n  Leave out the explicit files with --no-tra, or choose another disk with -o."
+        }
+        RunDirectoryError::Format(_) => {
+            "\n  Leave out the explicit files with --no-tra, or use --encoding rows, a coarser partition, or a smaller U or U'."
+        }
+        _ => "",
     }
 }
 

@@ -1,8 +1,9 @@
 //! Values and policies as files, in PRISM's forms.
 
 use super::CliError;
-use imdp::evaluation::Evaluation;
+use imdp::evaluation::{Evaluation, Values};
 use imdp::files::Outputs;
+use imdp::formats::{PolicyEntry, StateValues};
 use imdp::model::{IntervalMdp, RowId, StateId};
 use imdp::property::Verdict;
 use imdp::solver::{Answer, Policy};
@@ -12,23 +13,15 @@ use std::path::Path;
 
 /// Writes one line per state: its lower bound, or for thresholds `true`, `false` or `undecided`.
 ///
-/// The form of PRISM's `-exportvector`.
-///
 /// # Errors
 /// What writing gives.
 pub(super) fn write_values(model: &IntervalMdp, answer: &Answer, out: &mut impl Write) -> io::Result<()> {
-    for state in StateId::first(model.num_states()) {
-        match answer.verdict_of(state) {
-            None => {
-                let value = answer.values.lower[state.index()];
-                writeln!(out, "{}", imdp::numeric::shortest_decimal(value))?;
-            }
-            Some(Verdict::Holds) => writeln!(out, "true")?,
-            Some(Verdict::Fails) => writeln!(out, "false")?,
-            Some(Verdict::Unknown) => writeln!(out, "undecided")?,
-        }
+    let verdicts: Option<Vec<Verdict>> =
+        StateId::first(model.num_states()).map(|state| answer.verdict_of(state)).collect();
+    match verdicts.filter(|_| answer.objective.threshold.is_some()) {
+        Some(verdicts) => StateValues::Verdicts(verdicts).write(out),
+        None => StateValues::Numbers(answer.values.lower.clone()).write(out),
     }
-    Ok(())
 }
 
 /// Writes one line per state for an expression: the lower bound of its value, or `true`, `false` or `undecided`.
@@ -40,51 +33,30 @@ pub(super) fn write_evaluated(
     evaluation: &Evaluation,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    for state in StateId::first(model.num_states()) {
-        match (evaluation.bounds(state), evaluation.verdict(state)) {
-            (Some((lower, _)), _) if lower.is_finite() => {
-                writeln!(out, "{}", imdp::numeric::shortest_decimal(lower))?;
-            }
-            // As PRISM writes it.
-            (Some((lower, _)), _) => writeln!(out, "{}", if lower > 0.0 { "Infinity" } else { "-Infinity" })?,
-            (None, Some(Verdict::Holds)) => writeln!(out, "true")?,
-            (None, Some(Verdict::Fails)) => writeln!(out, "false")?,
-            (None, _) => writeln!(out, "undecided")?,
+    let states = StateId::first(model.num_states());
+    let verdicts: Option<Vec<Verdict>> = states.clone().map(|state| evaluation.verdict(state)).collect();
+    match verdicts.filter(|_| matches!(evaluation.values, Values::Truth(_))) {
+        Some(verdicts) => StateValues::Verdicts(verdicts).write(out),
+        None => {
+            let lower = |state| evaluation.bounds(state).map_or(f64::NEG_INFINITY, |(lower, _)| lower);
+            StateValues::Numbers(states.map(lower).collect()).write(out)
         }
     }
-    Ok(())
 }
 
 /// Writes `state=action`, or `state,step=action` for a policy that changes over time.
 ///
-/// The form of PRISM's `-exportstrat f:type=actions,states=false`; a step counts the steps elapsed. A choice
-/// without a name is given by its index.
+/// A choice without a name is given by its index.
 ///
 /// # Errors
 /// What writing gives.
 pub(super) fn write_policy(model: &IntervalMdp, policy: &Policy, out: &mut impl Write) -> io::Result<()> {
     let first_choices = first_choices(model);
-    for state in StateId::first(model.num_states()) {
-        let name = |choice: u32| {
-            let row = model.choices().row_of_choice(state, choice);
-            action_name(model, first_choices[state.index()] + u64::from(choice), row, choice)
-        };
-        match policy.horizon() {
-            None => {
-                if let Some(choice) = policy.choice(state, 0) {
-                    writeln!(out, "{state}={}", name(choice))?;
-                }
-            }
-            Some(horizon) => {
-                for step in 0..horizon {
-                    if let Some(choice) = policy.choice(state, step) {
-                        writeln!(out, "{state},{step}={}", name(choice))?;
-                    }
-                }
-            }
-        }
-    }
-    Ok(())
+    let name = |state: StateId, choice: u32| {
+        let row = model.choices().row_of_choice(state, choice);
+        action_name(model, first_choices[state.index()] + u64::from(choice), row, choice)
+    };
+    write_entries(policy, model.num_states(), name, out)
 }
 
 /// Writes the lower bound of every cell, one per line.
@@ -92,7 +64,7 @@ pub(super) fn write_policy(model: &IntervalMdp, policy: &Policy, out: &mut impl 
 /// # Errors
 /// What writing gives.
 pub(super) fn write_cell_values(lower: &[f64], out: &mut impl Write) -> io::Result<()> {
-    lower.iter().try_for_each(|&value| writeln!(out, "{}", imdp::numeric::shortest_decimal(value)))
+    StateValues::Numbers(lower.to_vec()).write(out)
 }
 
 /// Writes `cell=input`, or `cell,step=input` for a policy that changes over time; a step counts the steps elapsed.
@@ -100,12 +72,22 @@ pub(super) fn write_cell_values(lower: &[f64], out: &mut impl Write) -> io::Resu
 /// # Errors
 /// What writing gives.
 pub(super) fn write_cell_policy(policy: &Policy, cells: u32, out: &mut impl Write) -> io::Result<()> {
-    for cell in 0..cells {
-        for step in 0..policy.horizon().unwrap_or(1) {
-            match (policy.choice(StateId(cell), step), policy.horizon()) {
-                (None, _) => {}
-                (Some(input), None) => writeln!(out, "{cell}=u_{input}")?,
-                (Some(input), Some(_)) => writeln!(out, "{cell},{step}=u_{input}")?,
+    write_entries(policy, cells as usize, |_, input| format!("u_{input}"), out)
+}
+
+/// What a policy decides in each state, at every step if it changes over time.
+fn write_entries(
+    policy: &Policy,
+    states: usize,
+    name: impl Fn(StateId, u32) -> String,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let steps = policy.horizon();
+    for state in StateId::first(states) {
+        for step in 0..steps.unwrap_or(1) {
+            if let Some(choice) = policy.choice(state, step) {
+                let (step, action) = (steps.map(|_| step), name(state, choice).into());
+                writeln!(out, "{}", PolicyEntry { state, step, action })?;
             }
         }
     }

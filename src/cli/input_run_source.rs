@@ -1,7 +1,6 @@
 //! A run whose actions are inputs, opened and solved.
 
 use super::{Bars, CliError};
-use dynabs::controller::InputController;
 use dynabs::landing::LandingSolution;
 use dynabs::run::InputRun;
 use imdp::progress::Progress;
@@ -15,26 +14,29 @@ pub(super) struct SolvedInputs {
 }
 
 impl SolvedInputs {
-    /// Opens a run and solves its task: the same every time.
+    /// Opens a run and solves its task as these options say; without any, unless the run holds the solution.
     ///
     /// # Errors
     /// [`CliError`] if the directory is no run, or if it was interrupted.
-    pub(super) fn open(directory: &Path, options: &SolverOptions<'_>, bars: &Bars) -> Result<Self, CliError> {
+    pub(super) fn open(
+        directory: &Path,
+        given: Option<&SolverOptions<'_>>,
+        bars: &Bars,
+    ) -> Result<Self, CliError> {
         let run = InputRun::open(directory)?;
         let progress =
             |step, change: f64| bars.note(|| format!("step {step}, values change by {change:.1e}"));
+        let options = given.copied().unwrap_or_default();
         let options =
-            SolverOptions { interrupt: Some(bars.interrupt()), progress: Some(&progress), ..*options };
-        let solution = run.solve(&options);
+            SolverOptions { interrupt: Some(bars.interrupt()), progress: Some(&progress), ..options };
+        let solution = match given {
+            Some(_) => run.solve(&options),
+            None => run.solution(&options),
+        };
         bars.finish();
         if solution.status == Status::Interrupted {
             return Err(CliError::Interrupted);
         }
         Ok(Self { run, solution })
-    }
-
-    /// The controller.
-    pub(super) fn controller(&self) -> InputController {
-        InputController::new(&self.run.problem, &self.run.abstraction, &self.solution)
     }
 }

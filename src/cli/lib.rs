@@ -21,9 +21,9 @@ mod summary;
 mod threads;
 mod trajectories;
 
-pub use choices::{AnyFormatName, EncodingName, FormatName, NamesChoice};
+pub use choices::{EncodingName, NamesChoice};
 pub use error::{CliError, exit_with};
-pub use output::{print, thousands, warn};
+pub use output::{print, print_json, thousands, warn};
 pub use progress::Bars;
 pub use results::PropertyResult;
 pub use start::start;

@@ -90,22 +90,37 @@ impl LoadedModel {
 /// # Errors
 /// [`CliError::Input`] if nothing usable is there or it is malformed.
 pub(super) fn load(path: &Path, explicit: bool, bars: &Bars) -> Result<LoadedModel, CliError> {
-    const EXPECTED: &str = "a directory written by dynabs-compile or a .tra, .pexp, .drn, .umb, .txt (bmdp-tool), .nc (IntervalMDP.jl) or .dynabs file";
+    let expected = || {
+        format!(
+            "a directory written by dynabs-compile or a file that ends in {}",
+            Format::endings(Format::all())
+        )
+    };
     let shown = path.display();
     if path.is_dir() {
         return steady(&[path.to_owned()], || load_directory(path, explicit, bars));
     }
     let format = Format::of_path(path);
     if !path.exists() && format != Some(Format::Prism) {
-        return Err(CliError::Input(format!("{shown}: found nothing; expected {EXPECTED}")));
+        return Err(CliError::Input(format!("{shown}: found nothing; expected {}", expected())));
     }
     match format {
         Some(format) => load_file(path, format, bars),
         None => Err(CliError::Input(format!(
-            "{shown}: found a file of another kind; expected {EXPECTED}{}",
+            "{shown}: found a file of another kind; expected {}{}",
+            expected(),
             export_command(path)
         ))),
     }
+}
+
+/// What a command that takes a model says of it.
+pub(super) fn model_help() -> String {
+    let formats: Vec<_> = Format::all().map(|format| format!("  {}", format.about())).collect();
+    format!(
+        "A directory written by dynabs-compile, or a model (`m.tra,sta,lab` as well), compressed by gzip or xz or not:\n{}",
+        formats.join("\n")
+    )
 }
 
 /// How to make files of a model in the language of PRISM or Storm; nothing for other files.

@@ -1,6 +1,7 @@
 //! What goes to the terminal: nothing in it moves the cursor, and nothing panics when nobody listens.
 
 use super::CliError;
+use serde::Serialize;
 use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -19,6 +20,16 @@ pub fn print(text: &str) -> Result<(), CliError> {
         }
         _ => Ok(()),
     }
+}
+
+/// Writes an object to stdout as JSON that people can read too.
+///
+/// # Errors
+/// [`CliError::Failure`] if writing fails, or if the object has no JSON form.
+pub fn print_json(object: &impl Serialize) -> Result<(), CliError> {
+    let text = serde_json::to_string_pretty(object)
+        .map_err(|error| CliError::Failure(format!("found something without a JSON form: {error}")))?;
+    print(&(text + "\n"))
 }
 
 /// Writes text to stderr in the same way; if that is closed there is nobody to tell.

@@ -4,7 +4,7 @@ use crate::CliError;
 use crate::model_source::LoadedModel;
 use clap::{Args, ValueEnum};
 use imdp::files;
-use imdp::property::{Definitions, Entry, Nature, parse_document, parse_inquiry};
+use imdp::property::{Definitions, Entry, Nature, ParseErrorKind, parse_document, parse_inquiry};
 use std::path::{Path, PathBuf};
 
 /// Which properties, and how they are read.
@@ -47,7 +47,11 @@ impl Asked {
     /// Why it asks nothing that can be answered.
     pub(crate) fn problem(&self) -> Option<String> {
         let error = self.entry.inquiry.as_ref().err()?;
-        Some(format!("{}: {error}", self.source))
+        let option = match error.kind() {
+            ParseErrorKind::Undefined { name } => format!("\n  Or give it one with --const {name}=VALUE."),
+            _ => String::new(),
+        };
+        Some(format!("{}: {error}{option}", self.source))
     }
 }
 

@@ -1,11 +1,12 @@
 //! Answers as they are printed: a table for people, objects for programs.
 
 use dynabs::guarantee::Claim;
+use imdp::compare::{InitialResult, RecordedResult};
 use imdp::evaluation::Evaluation;
 use imdp::model::{IntervalMdp, StateId};
 use imdp::property::{Compound, Property, Verdict};
 use imdp::solver::{Answer, Inexact, Status};
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use std::fmt::Write as _;
 use std::process::ExitCode;
 use std::time::Duration;
@@ -13,52 +14,15 @@ use std::time::Duration;
 /// The answer to one property.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PropertyResult {
-    /// The property in PRISM's syntax.
-    pub property: String,
-    /// The least lower bound of all initial states; none for formulas that have no value.
-    #[serde(serialize_with = "serialized")]
-    pub lower: Option<f64>,
-    /// The greatest upper bound of all initial states; none for formulas that have no value.
-    #[serde(serialize_with = "serialized")]
-    pub upper: Option<f64>,
-    /// For thresholds: whether they hold in all initial states; `null` if undecided or not asked.
-    pub satisfied: Option<bool>,
-    /// How the computation ended.
-    pub status: String,
-    /// The number of iterations.
-    pub steps: u64,
-    /// How long it took.
-    pub seconds: f64,
-    /// If there are several initial states: what holds in each.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub initial: Vec<InitialResult>,
-    /// Why a threshold that lies between the bounds is not decided, if so.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub undecided: Option<String>,
-    /// Why there is no answer, if there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub error: Option<String>,
+    /// What is recorded of it.
+    #[serde(flatten)]
+    pub recorded: RecordedResult,
     /// For models of a run: what the answer claims of the system.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub guarantee: Option<Claim>,
     /// Whether the question was answered: it ended by itself and no threshold lies between the bounds.
     #[serde(skip)]
     decided: bool,
-}
-
-/// The answer in one initial state.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct InitialResult {
-    /// The state.
-    pub state: StateId,
-    /// The lower bound of the value; none for formulas that have no value.
-    #[serde(serialize_with = "serialized")]
-    pub lower: Option<f64>,
-    /// The upper bound of the value; none for formulas that have no value.
-    #[serde(serialize_with = "serialized")]
-    pub upper: Option<f64>,
-    /// For formulas and thresholds: whether they hold; `null` if undecided or not asked.
-    pub satisfied: Option<bool>,
 }
 
 /// JSON has no infinity: it is written as PRISM does, in quotation marks.
@@ -69,10 +33,6 @@ pub(crate) fn number(value: f64) -> serde_json::Value {
     }
 }
 
-fn serialized<S: Serializer>(value: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
-    value.map(number).serialize(serializer)
-}
-
 impl PropertyResult {
     /// Summarises an answer about a model.
     pub fn new(property: &Property, answer: &Answer, model: &IntervalMdp, time: Duration) -> Self {
@@ -80,7 +40,7 @@ impl PropertyResult {
             state,
             lower: Some(answer.values.lower[state.index()]),
             upper: Some(answer.values.upper[state.index()]),
-            satisfied: answer.verdict_of(state).and_then(decided),
+            satisfied: answer.verdict_of(state).and_then(Verdict::decided),
         };
         let verdict = answer.verdict;
         let (status, steps) = (answer.solution.status, answer.solution.iterations);
@@ -101,7 +61,7 @@ impl PropertyResult {
                 state,
                 lower: bounds.map(|bounds| bounds.0),
                 upper: bounds.map(|bounds| bounds.1),
-                satisfied: evaluation.verdict(state).and_then(decided),
+                satisfied: evaluation.verdict(state).and_then(Verdict::decided),
             }
         };
         let verdicts: Option<Vec<Verdict>> =
@@ -116,7 +76,7 @@ impl PropertyResult {
     fn undecided_because(mut self, reason: Option<Inexact>) -> Self {
         // What was stopped says so.
         let reason = reason.filter(|reason| !self.decided && *reason != Inexact::Stopped);
-        self.undecided = reason.map(|reason| {
+        self.recorded.undecided = reason.map(|reason| {
             format!("the threshold lies between the bounds, and {reason}; a smaller --epsilon may decide it")
         });
         self
@@ -132,57 +92,46 @@ impl PropertyResult {
         let initial: Vec<InitialResult> =
             model.initial().ones().map(|state| in_state(StateId::from_index(state))).collect();
         let ended = matches!(status, Status::HorizonReached | Status::Converged);
-        Self {
+        let recorded = RecordedResult {
             property,
             lower: initial.iter().filter_map(|result| result.lower).reduce(f64::min),
             upper: initial.iter().filter_map(|result| result.upper).reduce(f64::max),
-            satisfied: verdict.and_then(decided),
-            status: status.to_string(),
-            steps,
-            seconds: time.as_secs_f64(),
+            satisfied: verdict.and_then(Verdict::decided),
+            status: Some(status.to_string()),
+            steps: Some(steps),
+            seconds: Some(time.as_secs_f64()),
             initial: if initial.len() > 1 { initial } else { vec![] },
             undecided: None,
             error: None,
-            guarantee: None,
-            decided: match verdict {
-                None => ended,
-                Some(verdict) => verdict != Verdict::Unknown,
-            },
-        }
+        };
+        let decided = verdict.map_or(ended, |verdict| verdict != Verdict::Unknown);
+        Self { recorded, guarantee: None, decided }
     }
 
     /// A property without an answer.
     pub(crate) fn failed(property: &str, error: String) -> Self {
-        Self {
+        let recorded = RecordedResult {
             property: property.to_owned(),
-            lower: None,
-            upper: None,
-            satisfied: None,
-            status: "failed".to_owned(),
-            steps: 0,
-            seconds: 0.0,
-            initial: vec![],
-            undecided: None,
+            status: Some("failed".to_owned()),
+            steps: Some(0),
+            seconds: Some(0.0),
             error: Some(error),
-            guarantee: None,
-            decided: false,
-        }
+            ..RecordedResult::default()
+        };
+        Self { recorded, guarantee: None, decided: false }
     }
-}
 
-fn decided(verdict: Verdict) -> Option<bool> {
-    match verdict {
-        Verdict::Holds => Some(true),
-        Verdict::Fails => Some(false),
-        Verdict::Unknown => None,
+    /// Bounds on the value, if it is a probability.
+    pub(super) fn bounds(&self) -> [f64; 2] {
+        [self.recorded.lower.unwrap_or(0.0), self.recorded.upper.unwrap_or(1.0)]
     }
 }
 
 /// 2 if a property has no answer, else 1 if one is false, else 3 if one is undecided, else 0.
 pub(super) fn exit_code(results: &[PropertyResult]) -> ExitCode {
-    if results.iter().any(|result| result.error.is_some()) {
+    if results.iter().any(|result| result.recorded.error.is_some()) {
         ExitCode::from(2)
-    } else if results.iter().any(|result| result.satisfied == Some(false)) {
+    } else if results.iter().any(|result| result.recorded.satisfied == Some(false)) {
         ExitCode::from(1)
     } else if results.iter().any(|result| !result.decided) {
         ExitCode::from(3)
@@ -197,15 +146,15 @@ const LISTED: usize = 10;
 /// The results as a table.
 pub(super) fn table(results: &[PropertyResult]) -> String {
     let mut text = String::new();
-    for result in results {
+    for PropertyResult { recorded: result, guarantee, decided } in results {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}", result.property);
         if result.error.is_some() {
             let _ = writeln!(text, "  not answered");
             continue;
         }
-        let caveat = result.guarantee.as_ref().and_then(|claim| claim.caveat.as_ref());
-        let verdict = match (result.satisfied, result.decided) {
+        let caveat = guarantee.as_ref().and_then(|claim| claim.caveat.as_ref());
+        let verdict = match (result.satisfied, *decided) {
             // Never a bare `true` where a reader may take it for more.
             (Some(true), _) if caveat.is_some() => "true at grouped instants only   ".to_owned(),
             (Some(satisfied), _) => format!("{satisfied}   "),
@@ -220,9 +169,9 @@ pub(super) fn table(results: &[PropertyResult]) -> String {
             text,
             "  {verdict}{}at {place}   {}, {} steps, {:.1?}",
             value(result.lower, result.upper),
-            result.status,
-            result.steps,
-            Duration::from_secs_f64(result.seconds),
+            result.status.as_deref().unwrap_or("unknown"),
+            result.steps.unwrap_or(0),
+            Duration::from_secs_f64(result.seconds.unwrap_or(0.0)),
         );
         if let Some(reason) = &result.undecided {
             let _ = writeln!(text, "  {reason}");
@@ -242,7 +191,7 @@ pub(super) fn table(results: &[PropertyResult]) -> String {
                 result.initial.len() - LISTED
             );
         }
-        if let Some(claim) = &result.guarantee {
+        if let Some(claim) = guarantee {
             let covered = if claim.covered { "covered" } else { "not covered" };
             let caveat = caveat.map_or(String::new(), |caveat| format!("; {caveat}"));
             let _ = writeln!(text, "  {covered}: {}{caveat}", claim.text);
@@ -287,8 +236,8 @@ mod tests {
             text.contains("undecided") && text.contains("exact arithmetic would take too long"),
             "{text}"
         );
-        assert!(undecided.satisfied.is_none() && undecided.undecided.is_some());
+        assert!(undecided.recorded.satisfied.is_none() && undecided.recorded.undecided.is_some());
         let decided = result(1 << 20);
-        assert_eq!((decided.satisfied, decided.undecided), (Some(true), None));
+        assert_eq!((decided.recorded.satisfied, decided.recorded.undecided), (Some(true), None));
     }
 }

@@ -1,8 +1,10 @@
-//! A run directory opened and solved: where controllers come from.
+//! A run directory opened, with the solution that it holds or a new one: where controllers come from.
 
+use super::input_run_source::SolvedInputs;
 use super::{Bars, CliError};
 use dynabs::controller::{Controller, ControllerError};
-use dynabs::run::{OpenError, Run};
+use dynabs::partition::Grid;
+use dynabs::run::{InputRun, OpenError, Run};
 use imdp::files::is_fault_of_input;
 use imdp::progress::Progress;
 use imdp::solver::{Answer, SolverOptions, Status};
@@ -53,4 +55,60 @@ pub(super) fn refine(directory: &Path, bars: &Arc<Bars>) -> Result<Refined, CliE
     }
     let controller = Controller::new(&run.problem, &run.abstraction, &answer)?;
     Ok(Refined { run, answer, controller })
+}
+
+/// A run with its controller, whatever its actions are.
+pub(super) enum Controlled {
+    /// Actions are targets.
+    Targets(Box<Refined>),
+    /// Actions are inputs.
+    Inputs(Box<SolvedInputs>, Box<Controller>),
+}
+
+impl Controlled {
+    /// Opens a run, solves its task unless the run holds the solution, and refines the policy.
+    ///
+    /// # Errors
+    /// [`CliError`] if the directory is no run, or if it was interrupted.
+    pub(super) fn open(directory: &Path, bars: &Arc<Bars>) -> Result<Self, CliError> {
+        if !InputRun::is_in(directory) {
+            return refine(directory, bars).map(|refined| Self::Targets(Box::new(refined)));
+        }
+        bars.catch_interrupts();
+        let SolvedInputs { run, solution } = SolvedInputs::open(directory, None, bars)?;
+        let controller = Controller::of_inputs(&run.problem, &run.abstraction, &solution);
+        Ok(Self::Inputs(Box::new(SolvedInputs { run, solution }), Box::new(controller)))
+    }
+
+    /// The controller.
+    pub(super) fn controller(&self) -> &Controller {
+        match self {
+            Self::Targets(refined) => &refined.controller,
+            Self::Inputs(_, controller) => controller,
+        }
+    }
+
+    /// The name of the model.
+    pub(super) fn name(&self) -> &str {
+        match self {
+            Self::Targets(refined) => refined.run.problem.name(),
+            Self::Inputs(solved, _) => solved.run.problem.name(),
+        }
+    }
+
+    /// The partition.
+    pub(super) fn grid(&self) -> &Grid {
+        match self {
+            Self::Targets(refined) => refined.run.problem.grid(),
+            Self::Inputs(solved, _) => solved.run.problem.grid(),
+        }
+    }
+
+    /// The state from which the guarantee is wanted, if it is one.
+    pub(super) fn initial_state(&self) -> Option<&[f64]> {
+        match self {
+            Self::Targets(refined) => refined.run.problem.initial_state(),
+            Self::Inputs(solved, _) => solved.run.problem.initial_state(),
+        }
+    }
 }

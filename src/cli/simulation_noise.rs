@@ -40,6 +40,11 @@ enum Of {
 /// A noise and what to say about it.
 pub(super) struct ChosenNoise {
     pub(super) noise: Noise,
+    pub(super) said: SaidOfNoise,
+}
+
+/// What to say about a noise.
+pub(super) struct SaidOfNoise {
     pub(super) name: String,
     /// Why it is no independent check of the promise, or not the whole story.
     pub(super) notes: Vec<String>,
@@ -55,7 +60,7 @@ pub(super) fn noise(arguments: &NoiseArguments, run: &Run) -> Result<ChosenNoise
     let chosen = match (arguments.noise.as_deref(), &arguments.covariance) {
         (None | Some("gaussian"), Some(covariance)) => {
             let noise = given_gaussian(covariance, arguments.mean.as_deref(), run)?;
-            ChosenNoise { noise, name: format!("Gaussian, covariance {covariance}"), notes: vec![] }
+            ChosenNoise::new(noise, format!("Gaussian, covariance {covariance}"))
         }
         (Some(other), Some(_)) => {
             return Err(CliError::Input(format!(
@@ -63,7 +68,7 @@ pub(super) fn noise(arguments: &NoiseArguments, run: &Run) -> Result<ChosenNoise
             )));
         }
         (None | Some("gaussian"), None) if is_gaussian => {
-            ChosenNoise { noise: Noise::of(own), name: "Gaussian, the model's".into(), notes: vec![] }
+            ChosenNoise::new(Noise::of(own), "Gaussian, the model's".into())
         }
         (Some("gaussian"), None) => {
             return Err(CliError::Input(
@@ -83,20 +88,24 @@ pub(super) fn noise(arguments: &NoiseArguments, run: &Run) -> Result<ChosenNoise
                 };
             let name = format!("the model's {} samples, drawn with replacement", own.samples.len());
             let note = "these are the samples that the promise rests on: this is no independent check of it";
-            ChosenNoise { noise, name, notes: vec![note.into()] }
+            ChosenNoise { noise, said: SaidOfNoise { name, notes: vec![note.into()] } }
         }
         (Some(file), None) => {
             let noise = given_samples(Path::new(file), arguments.samples_of, run)?;
-            ChosenNoise { noise, name: format!("samples of {file}, drawn with replacement"), notes: vec![] }
+            ChosenNoise::new(noise, format!("samples of {file}, drawn with replacement"))
         }
     };
     Ok(chosen.with_notes(run.problem.group_steps()))
 }
 
 impl ChosenNoise {
+    fn new(noise: Noise, name: String) -> Self {
+        Self { noise, said: SaidOfNoise { name, notes: vec![] } }
+    }
+
     fn with_notes(mut self, group_steps: usize) -> Self {
         if group_steps > 1 && !self.noise.is_stepwise() {
-            self.notes.push(format!(
+            self.said.notes.push(format!(
                 "samples of {group_steps} steps together come with the last of these steps: states in between are those \
                  without noise"
             ));

@@ -1,10 +1,9 @@
 //! What a simulation showed, for people and programs.
 
-use super::simulation_noise::ChosenNoise;
+use super::simulation_noise::SaidOfNoise;
 use super::{CliError, thousands, warn};
-use dynabs::controller::{Controller, Frequency, InputController, Tally};
-use dynabs::guarantee::{Guarantee, Safety, lower_bound_text};
-use dynabs::run::{InputRun, Run};
+use dynabs::controller::{Controller, Frequency, Tally};
+use dynabs::guarantee::{Safety, lower_bound_text};
 use dynabs::task::Aim;
 use imdp::numeric::{Rational, from_decimal, shortest_decimal, to_f64};
 use num_traits::One;
@@ -53,27 +52,8 @@ pub(super) struct Simulated {
 }
 
 impl Report {
-    pub(super) fn new(run: &Run, controller: &Controller, noise: ChosenNoise, simulated: Simulated) -> Self {
-        let bound = controller.bound_at(&simulated.from);
-        let checks = controller.group_steps() as u64;
-        let noise = (noise.name, noise.notes);
-        Self::of((&run.manifest.name, checks), controller.guarantee(), bound, noise, simulated)
-    }
-
-    /// Of a run whose actions are inputs: the noise is the model's.
-    pub(super) fn of_inputs(run: &InputRun, controller: &InputController, simulated: Simulated) -> Self {
-        let bound = controller.bound_at(&simulated.from);
-        let noise = ("the model's distributions".to_owned(), vec![]);
-        Self::of((run.problem.name(), 1), controller.guarantee(), bound, noise, simulated)
-    }
-
-    fn of(
-        (name, checks): (&str, u64),
-        guarantee: &Guarantee,
-        bound: f64,
-        (noise, notes): (String, Vec<String>),
-        simulated: Simulated,
-    ) -> Self {
+    pub(super) fn new(name: &str, controller: &Controller, noise: SaidOfNoise, simulated: Simulated) -> Self {
+        let (guarantee, bound) = (controller.guarantee(), controller.bound_at(&simulated.from));
         let Simulated { from, seed, confidence, tally, seconds } = simulated;
         // Of the decimal that was written: 0.01 for 0.99.
         let alpha = from_decimal(confidence).map_or(0.01, |p| to_f64(&(Rational::one() - p)));
@@ -88,7 +68,7 @@ impl Report {
                 (None, Aim::Reach) => "in the goal region",
                 (None, Aim::Stay | Aim::End) => "in the safe region",
             },
-            noise,
+            noise: noise.name,
             seed,
             bound,
             promise_confidence: guarantee.confidence(),
@@ -97,18 +77,12 @@ impl Report {
             satisfied_at_every_step: tally.satisfaction(Safety::EveryStep, alpha),
             reached: tally.reaching(safety, alpha),
             contradiction: satisfied.contradicts(bound),
-            inputs_checked: tally.steps * checks,
+            inputs_checked: tally.steps * controller.group_steps() as u64,
             counts: tally,
             group_steps: guarantee.event.group_steps,
             seconds,
-            notes,
+            notes: noise.notes,
         }
-    }
-
-    pub(super) fn json(&self) -> Result<String, CliError> {
-        let text = serde_json::to_string_pretty(self)
-            .map_err(|error| CliError::Failure(format!("the report has no JSON form: {error}")))?;
-        Ok(text + "\n")
     }
 
     pub(super) fn text(&self) -> String {

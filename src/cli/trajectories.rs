@@ -29,8 +29,8 @@ pub(super) fn write_trajectories(
             };
             let status = match (step.decision, &step.input) {
                 (None, _) => "between",
-                (Some(Decision::Steer { .. } | Decision::Apply { .. }), Some(_)) => "steer",
-                (Some(Decision::Steer { .. } | Decision::Apply { .. }), None) => "given_up",
+                (Some(Decision::Act { .. }), Some(_)) => "steer",
+                (Some(Decision::Act { .. }), None) => "given_up",
                 (Some(Decision::Reached), _) => "reached",
                 (Some(Decision::Unsafe), _) => "unsafe",
                 (Some(Decision::Outside), _) => "outside",

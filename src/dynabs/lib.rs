@@ -47,8 +47,9 @@
 //! assert!(answer.lower > 0.99);
 //!
 //! let controller = controller::Controller::new(&problem, &compiled, &answer)?;
-//! let mut u = [0.0];
-//! assert!(matches!(controller.control(&[2.0], 0, &mut u), controller::Decision::Steer { .. }));
+//! let (mut u, mut memory) = ([0.0], controller::RunMemory::default());
+//! let decision = controller.control(&[2.0], 0, &mut memory, &mut u);
+//! assert!(matches!(decision, controller::Decision::Act { .. }));
 //! assert!(-1.75 <= u[0] && u[0] <= 1.75);
 //! # Ok(())
 //! # }

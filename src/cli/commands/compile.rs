@@ -2,15 +2,17 @@
 
 use super::compile_inputs;
 use super::solve::LimitArguments;
+use crate::choices::format_names;
 use crate::results::{PropertyResult, exit_code, table};
 use crate::summary::{memory, summary};
-use crate::{Bars, CliError, EncodingName, FormatName, print, use_threads, warn};
+use crate::{Bars, CliError, EncodingName, print, use_threads, warn};
 use clap::Parser;
 use dynabs::abstraction::{Abstraction, Footprint, compile};
 use dynabs::model_file::{Document, SetArgument, StatedProblem, json_schema, starter_model};
 use dynabs::problem::Problem;
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, solution_options, write_run};
 use imdp::files::{self, Outputs};
+use imdp::formats::Format;
 use imdp::model::{IntervalMdp, available_memory};
 use imdp::property::Property;
 use imdp::solver::{Answer, Pruned};
@@ -42,8 +44,8 @@ pub struct CompileArguments {
     seed: Option<u64>,
 
     /// Write the model in these formats as well; model.dynabs is always written.
-    #[arg(long, value_name = "FORMAT", value_enum, value_delimiter = ',', default_values_t = [FormatName::Prism])]
-    format: Vec<FormatName>,
+    #[arg(long, value_name = "FORMAT", value_parser = format_names(Format::ALL.into_iter()), value_delimiter = ',', default_value = "prism")]
+    format: Vec<Format>,
 
     /// How choices are written in these formats: as they are (model.*), with one state per row (rows.*), or, for actions
     /// "inputs", without the states of the lattice (model.*, looser).
@@ -213,9 +215,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
         phases.push(("files", writing.elapsed()));
     }
     for result in &mut results {
-        let (guarantee, bounds) =
-            (&abstraction.guarantee, [result.lower.unwrap_or(0.0), result.upper.unwrap_or(1.0)]);
-        let claim = guarantee.claim(&abstraction.property, &abstraction.model, bounds);
+        let claim = abstraction.guarantee.claim(&abstraction.property, &abstraction.model, result.bounds());
         result.guarantee = Some(claim.map_err(|error| CliError::Failure(error.to_string()))?);
     }
     report(arguments, &manifest, &abstraction.footprint, &phases, &results)?;
@@ -238,9 +238,8 @@ fn solve(
 }
 
 fn write_options<'a>(arguments: &CompileArguments) -> WriteOptions<'a> {
-    let formats = arguments.format.iter().map(|&name| name.into());
     WriteOptions {
-        formats: if arguments.no_tra { vec![] } else { formats.collect() },
+        formats: if arguments.no_tra { vec![] } else { arguments.format.clone() },
         encoding: arguments.encoding.into(),
         force: arguments.force,
         solution: None,
@@ -293,7 +292,8 @@ fn configure(
     for text in &arguments.set {
         let argument: SetArgument =
             text.parse().map_err(|error| CliError::Input(format!("--set: {error}")))?;
-        document.set(&argument)?;
+        let name = format!("{} with --set", document.name);
+        document.set(&argument).map_err(|error| error.in_file(&name))?;
     }
     let mut notes = Vec::new();
     if let Some(seed) = arguments.seed {

@@ -60,13 +60,8 @@ pub(super) fn compile_inputs(
         }
         phases.push(("model", *time));
     }
-    if let Some((output, options)) = &wanted.output {
-        let writing = Instant::now();
-        let model = exported.as_ref().map(|exported| &exported.model);
-        manifest = write_input_run(output, document, problem, model, manifest, options, &**bars)?;
-        phases.push(("files", writing.elapsed()));
-    }
     let solving = Instant::now();
+    let mut kept = None;
     let result = if wanted.solve {
         let progress =
             |step, change: f64| bars.note(|| format!("step {step}, values change by {change:.1e}"));
@@ -83,12 +78,20 @@ pub(super) fn compile_inputs(
             }
             _ => result.with_exported(problem, &abstraction, &options),
         };
+        kept = Some(solution.of_pairs());
         bars.finish();
         phases.push(("solving", solving.elapsed()));
         Some(result)
     } else {
         None
     };
+    if let Some((output, options)) = &wanted.output {
+        let writing = Instant::now();
+        let options = &WriteOptions { solution: kept.as_ref(), ..options.clone() };
+        let model = exported.as_ref().map(|exported| &exported.model);
+        manifest = write_input_run(output, document, problem, model, manifest, options, &**bars)?;
+        phases.push(("files", writing.elapsed()));
+    }
     if !wanted.quiet {
         manifest.warnings.iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
         let times: Vec<_> = phases.iter().map(|(name, time)| format!("{name} {time:.1?}")).collect();

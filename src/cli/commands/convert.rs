@@ -1,7 +1,8 @@
 //! `dynabs-check convert`: from one format to another.
 
-use crate::model_source::load;
-use crate::{AnyFormatName, Bars, CliError, EncodingName, NamesChoice, print, thousands, warn};
+use crate::choices::format_names;
+use crate::model_source::{load, model_help};
+use crate::{Bars, CliError, EncodingName, NamesChoice, print, thousands, warn};
 use clap::Args;
 use imdp::files::{self, Outputs};
 use imdp::formats::prism::{ExplicitFiles, RAISED_LOWER_BOUND};
@@ -19,7 +20,7 @@ use std::sync::Arc;
 /// What to convert into what.
 #[derive(Clone, Debug, Args)]
 pub struct ConvertArguments {
-    /// A directory written by dynabs-compile, or a .tra, .drn, .umb or .dynabs file.
+    #[arg(help = model_help())]
     input: PathBuf,
 
     /// The file to write; its extension tells the format. With .tra, a .sta and a .lab file are written beside it; where
@@ -27,8 +28,8 @@ pub struct ConvertArguments {
     output: PathBuf,
 
     /// The format, whatever the extension.
-    #[arg(long, value_name = "FORMAT")]
-    to: Option<AnyFormatName>,
+    #[arg(long, value_name = "FORMAT", value_parser = format_names(Format::written()))]
+    to: Option<Format>,
 
     /// How choices are written: as they are, or with one state per row.
     #[arg(long, value_name = "ENCODING", default_value_t, value_enum)]
@@ -73,10 +74,11 @@ impl From<EncodingError> for CliError {
 /// [`CliError`], which knows its exit code.
 pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
     let output = &arguments.output;
-    let Some(format) = arguments.to.map(Format::from).or_else(|| Format::of_path(output)) else {
+    let Some(format) = arguments.to.or_else(|| Format::of_path(output)) else {
         return Err(CliError::Input(format!(
-            "{}: found a name of no known format; expected one that ends in .tra, .drn, .umb, .dynabs, .txt or .nc, or --to",
-            output.display()
+            "{}: found a name of no known format; expected one that ends in {}, or --to",
+            output.display(),
+            Format::endings(Format::written())
         )));
     };
     let has_place = Outputs::is_file(output).map_err(|error| CliError::writing(output, &error))?;

@@ -2,20 +2,20 @@
 
 use super::solve::LimitArguments;
 use crate::crosscheck_table::table;
-use crate::model_source::{LoadedModel, load};
+use crate::model_source::{LoadedModel, load, model_help};
 use crate::questions::QuestionArguments;
-use crate::{Bars, CliError, print, warn};
+use crate::{Bars, CliError, print, print_json, warn};
 use clap::{Args, ValueEnum};
 use dynabs::run::NATIVE_MODEL;
 use imdp::engines::{
-    Agreement, CrossCheckOptions, Engine, EngineMissing, Finding, Prism, RunLimits, Storm, Subject,
-    cross_check, raised,
+    Agreement, CrossCheckFile, CrossCheckOptions, Engine, EngineMissing, Finding, Handed, Prism, RunLimits,
+    Storm, Subject, cross_check, raised,
 };
 use imdp::evaluation::direct;
+use imdp::formats::Format;
 use imdp::formats::prism::check_names;
 use imdp::model::available_memory;
-use imdp::property::{Inquiry, Property};
-use serde_json::json;
+use imdp::property::Inquiry;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -25,12 +25,16 @@ use std::time::Duration;
 #[derive(Clone, Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct CrosscheckArguments {
-    /// A directory written by dynabs-compile, or a .tra file with .sta and .lab beside it.
+    #[arg(help = model_help())]
     path: PathBuf,
 
     /// The engine to ask.
     #[arg(long, value_enum, default_value_t = With::All)]
     with: With,
+
+    /// Hand engines this very file instead of a copy in their format: PRISM reads .tra and .umb, Storm .drn and .umb.
+    #[arg(long)]
+    as_is: bool,
 
     #[command(flatten)]
     questions: QuestionArguments,
@@ -101,14 +105,19 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     let Engines { found, missing } = find_engines(arguments)?;
     let bars = Arc::new(Bars::new(arguments.quiet));
     let loaded = load(&arguments.path, false, &bars)?;
-    let properties = properties(&arguments.questions, &loaded)?;
+    let inquiries = inquiries(&arguments.questions, &loaded)?;
     let digests = loaded.digests()?;
     let failure = |error| CliError::Failure(format!("{}: {error}", arguments.path.display()));
     let raised = raised(&loaded.model).map_err(failure)?;
     // Files that only we read are written again for the engines.
-    let as_is = check_names(&loaded.model).is_ok() && !loaded.has_own_layout;
-    let files = explicit_files(&arguments.path, raised.is_some()).filter(|_| as_is);
-    let subject = Subject { model: &loaded.model, raised: raised.as_ref(), files: files.as_ref() };
+    let readable = check_names(&loaded.model).is_ok() && !loaded.has_own_layout;
+    let files = explicit_files(&arguments.path, raised.is_some()).filter(|_| readable);
+    let handed = match (handed_as_is(arguments)?, &files) {
+        (Some(format), _) => Handed::AsIs(&arguments.path, format),
+        (None, Some(tra)) => Handed::Explicit(tra),
+        (None, None) => Handed::Copy,
+    };
+    let subject = Subject { model: &loaded.model, raised: raised.as_ref(), handed };
     say(arguments, &loaded.warnings, "warning: ");
     say(arguments, &missing.iter().map(ToString::to_string).collect::<Vec<_>>(), "missing: ");
 
@@ -123,44 +132,56 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     };
     let engines: Vec<&dyn Engine> = found.iter().map(|engine| &**engine).collect();
     let findings = LimitArguments::of_epsilon(arguments.epsilon).with_options(&bars, |solver| {
-        cross_check(&subject, &properties, &engines, &CrossCheckOptions { solver: *solver, limits })
+        cross_check(&subject, &inquiries, &engines, &CrossCheckOptions { solver: *solver, limits })
     })?;
+    let code = exit_code(&findings, !missing.is_empty());
     if arguments.json {
-        let object = json!({
-            "version": env!("CARGO_PKG_VERSION"),
-            "path": arguments.path.display().to_string(),
-            "model": digests.iter().map(|file| json!({"kind": file.kind, "sha256": file.sha256})).collect::<Vec<_>>(),
-            "agree": missing.is_empty() && agree(&findings),
-            "findings": findings,
-            "missing": missing.iter().map(|missing| missing.engine).collect::<Vec<_>>(),
-        });
-        print(&format!("{object:#}\n"))?;
+        print_json(&CrossCheckFile {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            path: arguments.path.display().to_string(),
+            model: digests,
+            agree: missing.is_empty() && agree(&findings),
+            findings,
+            missing: missing.iter().map(|missing| missing.engine.to_owned()).collect(),
+        })?;
     } else if !arguments.quiet {
         print(&table(&findings))?;
     }
-    Ok(exit_code(&findings, !missing.is_empty()))
+    Ok(code)
 }
 
-/// The properties that engines can be asked: those of a single probability. Others are passed over with a word.
-fn properties(questions: &QuestionArguments, loaded: &LoadedModel) -> Result<Vec<Property>, CliError> {
+/// The format of the file that engines are handed as it is, if they are.
+fn handed_as_is(arguments: &CrosscheckArguments) -> Result<Option<Format>, CliError> {
+    let path = &arguments.path;
+    match Format::of_path(path) {
+        _ if !arguments.as_is => Ok(None),
+        Some(format) if path.is_file() => Ok(Some(format)),
+        _ => Err(CliError::Input(format!(
+            "--as-is: found {}; expected a file that an engine reads: .tra, .drn or .umb",
+            path.display()
+        ))),
+    }
+}
+
+/// What engines can be asked. What cannot be read is passed over with a word.
+fn inquiries(questions: &QuestionArguments, loaded: &LoadedModel) -> Result<Vec<Inquiry>, CliError> {
     let asked = questions.read(loaded)?;
-    let (mut properties, mut problems) = (vec![], vec![]);
+    let (mut inquiries, mut problems) = (vec![], vec![]);
     for question in &asked {
         match (&question.entry.inquiry, question.problem()) {
             (Ok(Inquiry::Probability(property)), _) => {
-                properties.push(direct(property.clone(), &loaded.model, questions.nature()));
+                let property = direct(property.clone(), &loaded.model, questions.nature());
+                inquiries.push(Inquiry::Probability(property));
             }
-            (Ok(Inquiry::Compound(compound)), _) => problems.push(format!(
-                "{compound}: found more than one probability of F, G, U or X, which engines are not asked"
-            )),
+            (Ok(Inquiry::Compound(compound)), _) => inquiries.push(Inquiry::Compound(compound.clone())),
             (Err(_), problem) => problems.extend(problem),
         }
     }
-    if properties.is_empty() {
+    if inquiries.is_empty() {
         return Err(CliError::Input(problems.join("\nerror: ")));
     }
     problems.iter().for_each(|problem| warn(&format!("error: {problem}\n")));
-    Ok(properties)
+    Ok(inquiries)
 }
 
 fn say(arguments: &CrosscheckArguments, lines: &[String], head: &str) {
@@ -197,7 +218,10 @@ fn find_engines(arguments: &CrosscheckArguments) -> Result<Engines, CliError> {
         _ => arguments.python.is_some(),
     };
     if found.is_empty() || missing.iter().any(|missing| given(missing.engine)) {
-        let texts: Vec<_> = missing.iter().map(ToString::to_string).collect();
+        let option = |engine| if engine == "PRISM" { "--prism" } else { "--python" };
+        let text =
+            |missing: &EngineMissing| format!("{missing}\n  Name it by {} PATH.", option(missing.engine));
+        let texts: Vec<_> = missing.iter().map(text).collect();
         return Err(CliError::Input(texts.join("\nerror: ")));
     }
     Ok(Engines { found, missing })

@@ -3,7 +3,7 @@
 use crate::run_source::{Refined, refine};
 use crate::{Bars, CliError, print, warn};
 use clap::Args;
-use dynabs::report::{CrossCheckError, CrossChecks, Material, MaterialOptions, page, pictures};
+use dynabs::report::{CrossCheckError, Material, MaterialOptions, page, pictures, read_cross_checks};
 use imdp::files::Outputs;
 use std::fs;
 use std::io::Write;
@@ -69,7 +69,7 @@ pub fn run(arguments: &ReportArguments) -> Result<ExitCode, CliError> {
     if arguments.no_times {
         times.clear();
     }
-    let cross_checks = match CrossChecks::read(&arguments.directory, &run.manifest) {
+    let cross_checks = match read_cross_checks(&arguments.directory, &run.manifest) {
         Err(error @ CrossCheckError::OtherModel { .. }) => {
             warn(&format!("warning: {error}\n"));
             None

@@ -1,18 +1,15 @@
 //! `dynabs-check simulate`: the closed loop against its promise.
 
 use crate::exports::replace;
-use crate::input_run_source::SolvedInputs;
-use crate::run_source::{Refined, refine};
-use crate::simulation_noise::{NoiseArguments, noise};
+use crate::run_source::Controlled;
+use crate::simulation_noise::{ChosenNoise, NoiseArguments, SaidOfNoise, noise};
 use crate::simulation_report::{Report, Simulated};
 use crate::trajectories::write_trajectories;
-use crate::{Bars, CliError, print};
+use crate::{Bars, CliError, print, print_json};
 use clap::Args;
-use dynabs::controller::{InputSimulation, ParameterChoice, Simulation};
+use dynabs::controller::{ParameterChoice, Simulation};
 use dynabs::partition::{CellLookup, Grid};
-use dynabs::run::InputRun;
 use imdp::progress::Progress;
-use imdp::solver::SolverOptions;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -102,13 +99,21 @@ fn probability(text: &str) -> Result<f64, String> {
 /// [`CliError`], which knows its exit code.
 pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
-    if InputRun::is_in(&arguments.directory) {
-        return simulate_inputs(arguments, &bars);
-    }
-    let Refined { run, controller, .. } = refine(&arguments.directory, &bars)?;
-    let start = start(arguments, run.problem.grid(), run.problem.initial_state())?;
-    let noise = noise(&arguments.noise, &run)?;
-    let simulation = Simulation::new(&run.problem, &controller, noise.noise.clone(), arguments.most_steps);
+    let run = Controlled::open(&arguments.directory, &bars)?;
+    let controller = run.controller();
+    let start = start(arguments, run.grid(), run.initial_state())?;
+    let (simulation, noise) = match &run {
+        Controlled::Targets(refined) => {
+            let ChosenNoise { noise, said } = noise(&arguments.noise, &refined.run)?;
+            let problem = &refined.run.problem;
+            (Simulation::new(problem, controller, noise, arguments.most_steps), said)
+        }
+        Controlled::Inputs(solved, _) => {
+            let (problem, parameters) = (&solved.run.problem, arguments.parameters.into());
+            let said = SaidOfNoise { name: "the model's distributions".to_owned(), notes: vec![] };
+            (Simulation::of_inputs(problem, controller, parameters, arguments.most_steps), said)
+        }
+    };
     let clock = Instant::now();
     let tally = simulation.tally(&start, arguments.seed, arguments.runs, &*bars);
     let seconds = clock.elapsed().as_secs_f64();
@@ -118,47 +123,14 @@ pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, CliError> {
     if let Some(path) = &arguments.trajectories {
         let kept = arguments.keep.min(arguments.runs);
         let trajectories = (0..kept).map(|run| simulation.trajectory(&start, arguments.seed, run));
-        let sizes = (run.problem.grid().dimension(), run.problem.step_system().input_dimension());
-        replace(path, |out| write_trajectories(sizes, trajectories, out))?;
-    }
-    let SimulateArguments { seed, confidence, .. } = *arguments;
-    let report =
-        Report::new(&run, &controller, noise, Simulated { from: start, seed, confidence, tally, seconds });
-    if arguments.json {
-        print(&report.json()?)?;
-    } else if !arguments.quiet {
-        print(&report.text())?;
-    }
-    report.warn();
-    report.outcome()
-}
-
-/// The true system of a run whose actions are inputs.
-fn simulate_inputs(arguments: &SimulateArguments, bars: &Arc<Bars>) -> Result<ExitCode, CliError> {
-    bars.catch_interrupts();
-    let options = SolverOptions { policy: true, ..SolverOptions::default() };
-    let solved = SolvedInputs::open(&arguments.directory, &options, bars)?;
-    let (controller, problem) = (solved.controller(), &solved.run.problem);
-    let start = start(arguments, problem.grid(), problem.initial_state())?;
-    let simulation =
-        InputSimulation::new(problem, &controller, arguments.parameters.into(), arguments.most_steps);
-    let clock = Instant::now();
-    let tally = simulation.tally(&start, arguments.seed, arguments.runs, &**bars);
-    let seconds = clock.elapsed().as_secs_f64();
-    if bars.is_interrupted() {
-        return Err(CliError::Interrupted);
-    }
-    if let Some(path) = &arguments.trajectories {
-        let kept = arguments.keep.min(arguments.runs);
-        let trajectories = (0..kept).map(|run| simulation.trajectory(&start, arguments.seed, run));
-        let sizes = (controller.state_dimension(), controller.num_inputs());
+        let sizes = (controller.state_dimension(), controller.step_inputs());
         replace(path, |out| write_trajectories(sizes, trajectories, out))?;
     }
     let SimulateArguments { seed, confidence, .. } = *arguments;
     let simulated = Simulated { from: start, seed, confidence, tally, seconds };
-    let report = Report::of_inputs(&solved.run, &controller, simulated);
+    let report = Report::new(run.name(), controller, noise, simulated);
     if arguments.json {
-        print(&report.json()?)?;
+        print_json(&report)?;
     } else if !arguments.quiet {
         print(&report.text())?;
     }

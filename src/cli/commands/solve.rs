@@ -3,20 +3,21 @@
 use crate::exports::{write_cell_policy, write_cell_values, write_evaluated, write_policy, write_values};
 use crate::input_run_source::SolvedInputs;
 use crate::input_summary::InputResult;
-use crate::model_source::{LoadedModel, load};
+use crate::model_source::{LoadedModel, load, model_help};
 use crate::questions::{Asked, QuestionArguments};
 use crate::results::{PropertyResult, exit_code, table};
-use crate::{Bars, CliError, print, warn};
+use crate::{Bars, CliError, print, print_json, warn};
 use clap::Args;
 use dynabs::run::InputRun;
 use imdp::certificate;
+use imdp::compare::ResultsFile;
 use imdp::evaluation::{Evaluation, direct};
 use imdp::files::Outputs;
 use imdp::model::IntervalMdp;
 use imdp::progress::Progress;
 use imdp::property::{Compound, Inquiry, Property};
 use imdp::solver::{Answer, SolverOptions};
-use serde_json::{Value, json};
+use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -25,8 +26,7 @@ use std::time::{Duration, Instant};
 /// What to solve and how.
 #[derive(Clone, Debug, Args)]
 pub struct SolveArguments {
-    /// A directory written by dynabs-compile, or a model: .tra (with .sta, .lab, .srew, .trew beside it), `m.tra,sta,lab`,
-    /// .pexp, .drn, .umb, .dynabs, .txt of bmdp-tool, .nc of IntervalMDP.jl; compressed by gzip or xz or not.
+    #[arg(help = model_help())]
     path: PathBuf,
 
     #[command(flatten)]
@@ -134,13 +134,14 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
             Err(error) => return Err(error),
         }
     }
+    let code = exit_code(&results);
     if arguments.json {
-        print(&format!("{:#}\n", report(&loaded.model, &results, &loaded.warnings, reading)))?;
+        print_json(&report(&loaded.model, results, &loaded.warnings, reading))?;
     } else if !arguments.quiet {
         print(&table(&results))?;
         warn(&format!("times: reading {reading:.1?}, solving {:.1?}\n", start.elapsed() - reading));
     }
-    Ok(exit_code(&results))
+    Ok(code)
 }
 
 /// Answers one property and writes what was asked for about it.
@@ -228,7 +229,7 @@ fn solve_inputs(arguments: &SolveArguments, bars: &Arc<Bars>) -> Result<ExitCode
         time_limit: arguments.limits.time_limit.map(Duration::from_secs_f64),
         ..SolverOptions::default()
     };
-    let SolvedInputs { run, solution } = SolvedInputs::open(&arguments.path, &options, bars)?;
+    let SolvedInputs { run, solution } = SolvedInputs::open(&arguments.path, Some(&options), bars)?;
     let result = InputResult::new(&run.problem, &run.abstraction, &solution, start.elapsed());
     let result = result.with_exported(&run.problem, &run.abstraction, &options);
     let mut files = Outputs::default();
@@ -336,16 +337,21 @@ impl Default for LimitArguments {
     }
 }
 
-fn report(model: &IntervalMdp, results: &[PropertyResult], warnings: &[String], reading: Duration) -> Value {
+fn report(
+    model: &IntervalMdp,
+    results: Vec<PropertyResult>,
+    warnings: &[String],
+    reading: Duration,
+) -> ResultsFile<PropertyResult> {
     let size = model.size();
-    json!({
-        "version": env!("CARGO_PKG_VERSION"),
-        "states": size.states,
-        "choices": size.choices,
-        "transitions": size.transitions,
-        "rows": size.rows,
-        "results": results,
-        "warnings": warnings,
-        "seconds": {"reading": reading.as_secs_f64()},
-    })
+    ResultsFile {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        states: Some(size.states),
+        choices: Some(size.choices),
+        transitions: Some(size.transitions),
+        rows: Some(size.rows),
+        results,
+        warnings: warnings.to_vec(),
+        seconds: [("reading".to_owned(), reading.as_secs_f64())].into(),
+    }
 }

@@ -7,7 +7,6 @@ use clap::Args;
 use imdp::certificate::{CertificateError, Statement, read_statement_file};
 use imdp::evaluation::check_derivation;
 use imdp::files::is_fault_of_input;
-use imdp::property::Verdict;
 use imdp::verify::{Proved, Rejection, check};
 use serde_json::json;
 use std::path::PathBuf;
@@ -78,7 +77,7 @@ fn summary(property: &str, outcome: &Result<Proved, Rejection>, time: Duration) 
         Ok(proved) => format!(
             "{property}\n  accepted   {}value in [{:?}, {:?}] at the initial state   {} states, steps: {}, rows: {}, \
              {time:.1?}\n",
-            proved.verdict.map_or_else(String::new, |verdict| format!("{}   ", word(verdict))),
+            proved.verdict.map_or_else(String::new, |verdict| format!("{verdict}   ")),
             proved.lower,
             proved.upper,
             thousands(proved.states),
@@ -98,19 +97,11 @@ fn report(property: &str, outcome: &Result<Proved, Rejection>, time: Duration) -
             "accepted": true,
             "lower": number(proved.lower),
             "upper": number(proved.upper),
-            "verdict": proved.verdict.map(word),
+            "verdict": proved.verdict.map(|verdict| verdict.to_string()),
             "states": proved.states,
             "steps": proved.steps,
             "rows": proved.rows,
             "seconds": time.as_secs_f64(),
         }),
-    }
-}
-
-fn word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Holds => "true",
-        Verdict::Fails => "false",
-        Verdict::Unknown => "undecided",
     }
 }

@@ -1,7 +1,7 @@
 //! What a controller remembers of a run.
 
 use crate::partition::CellId;
-use crate::problem::{InputProblem, Objective};
+use crate::problem::Objective;
 use crate::task::{CellTask, LetterLookup, Memory, Standing};
 
 /// What a run has done so far, as far as its task cares; the default before it begins.
@@ -35,10 +35,6 @@ pub(super) struct MemoryUpdate {
 }
 
 impl MemoryUpdate {
-    pub(super) fn of_inputs(problem: &InputProblem) -> Self {
-        Self::new(problem.cell_task(), problem.objective())
-    }
-
     pub(super) fn new(task: &CellTask, objective: &Objective) -> Self {
         let letters = match objective {
             Objective::Reach { .. } | Objective::Stay { .. } => LetterLookup::default(),

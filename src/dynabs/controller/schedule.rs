@@ -1,15 +1,15 @@
-//! Which target a cell steers to, and when.
+//! Which action a cell takes, and when.
 
 use crate::abstraction::Abstraction;
 use imdp::solver::Policy;
 
-/// A target that holds from some number of steps left upwards, until the next entry of the cell.
+/// An action that holds from some number of steps left upwards, until the next entry of the cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Entry {
     /// The least number of grouped steps left for which it holds; 1 in stationary schedules.
     pub steps_left: u64,
     /// The target, as numbered by [`Targets`](crate::abstraction::Targets); or the input, where actions are inputs.
-    pub target: u32,
+    pub action: u32,
 }
 
 /// The entries of every cell, ascending in the steps left.
@@ -27,8 +27,8 @@ impl Schedule {
         for &state in &abstraction.state_of_cell {
             for &(steps_left, choice) in policy.changes(state) {
                 // States that merge cells have no choices, so every entry is of one cell.
-                if let Some(target) = choices.row_of_choice(state, choice) {
-                    schedule.entries.push(Entry { steps_left, target: target.0 });
+                if let Some(row) = choices.row_of_choice(state, choice) {
+                    schedule.entries.push(Entry { steps_left, action: row.0 });
                 }
             }
             schedule.starts.push(schedule.entries.len());
@@ -36,11 +36,11 @@ impl Schedule {
         schedule
     }
 
-    /// From `(steps left, action)` of every cell, ascending.
-    pub(super) fn of_cells<'a>(cells: impl Iterator<Item = &'a [(u64, u32)]>) -> Self {
+    /// From `(steps left, action)` of every pair of memory and cell, ascending.
+    pub(super) fn of_pairs<'a>(pairs: impl Iterator<Item = &'a [(u64, u32)]>) -> Self {
         let mut schedule = Self { starts: vec![0], entries: vec![] };
-        for changes in cells {
-            let entries = changes.iter().map(|&(steps_left, target)| Entry { steps_left, target });
+        for changes in pairs {
+            let entries = changes.iter().map(|&(steps_left, action)| Entry { steps_left, action });
             schedule.entries.extend(entries);
             schedule.starts.push(schedule.entries.len());
         }
@@ -52,10 +52,10 @@ impl Schedule {
         &self.entries[self.starts[pair]..self.starts[pair + 1]]
     }
 
-    /// The target with so many steps left.
-    pub(super) fn target(&self, pair: usize, steps_left: u64) -> Option<u32> {
+    /// The action with so many steps left.
+    pub(super) fn action(&self, pair: usize, steps_left: u64) -> Option<u32> {
         let entries = self.of(pair);
         let later = entries.partition_point(|entry| entry.steps_left <= steps_left);
-        later.checked_sub(1).map(|index| entries[index].target)
+        later.checked_sub(1).map(|index| entries[index].action)
     }
 }

@@ -25,7 +25,7 @@ impl fmt::Display for Gap {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Published => "reference mode repeats the published tool's intervals, which are no guarantee",
-            Self::RaisedBounds => "lower bounds of 0 are raised in model.tra; leave out --explicit",
+            Self::RaisedBounds => "lower bounds of 0 are raised in model.tra; model.dynabs has them as they are",
             Self::TrueInFailed => {
                 "the formula is true in \"failed\", where noise counts that no row lists, whatever it really does"
             }

@@ -35,6 +35,7 @@ mod solve;
 mod stage;
 mod stencil;
 mod step;
+mod stored;
 mod taps;
 #[cfg(test)]
 mod tests;

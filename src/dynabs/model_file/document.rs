@@ -65,9 +65,7 @@ impl Document {
     /// A [`Diagnostic`] if the parent does not exist or cannot hold such a key.
     pub fn set(&mut self, argument: &SetArgument) -> Result<(), Diagnostic> {
         let pointer = &argument.pointer;
-        let error = |found: String, expected: &str| {
-            Diagnostic::at(pointer, found, expected).in_file(&format!("{} with --set", self.name))
-        };
+        let error = |found: String, expected: &str| Diagnostic::at(pointer, found, expected);
         let (parent, key) = pointer.rsplit_once('/').unwrap_or_default();
         let key = key.replace("~1", "/").replace("~0", "~");
         match self.value.pointer_mut(parent) {
@@ -247,7 +245,7 @@ mod tests {
         }
         for argument in ["/missing/key=1", "/list/7=1", "/task/horizon/deep=1"] {
             let error = document.set(&argument.parse().unwrap()).unwrap_err().to_string();
-            assert!(error.contains("--set"), "{error}");
+            assert!(error.starts_with("/") && error.contains("expected"), "{error}");
         }
         assert!("task=1".parse::<SetArgument>().is_err() && "/task".parse::<SetArgument>().is_err());
     }

@@ -88,13 +88,13 @@ fn policy(material: &Material<'_>) -> Value {
     let cells = || (0..material.problem().grid().num_cells()).map(CellId);
     let mut starts = vec![0];
     for cell in cells() {
-        starts.push(starts[starts.len() - 1] + material.controller.entries(cell).len() as u32);
+        starts.push(starts[starts.len() - 1] + material.controller.entries(0, cell).len() as u32);
     }
-    let entries = || cells().flat_map(|cell| material.controller.entries(cell));
+    let entries = || cells().flat_map(|cell| material.controller.entries(0, cell));
     json!({
         "starts": packed(starts.into_iter()),
         "left": packed(entries().map(|entry| u32::try_from(entry.steps_left).unwrap_or(u32::MAX))),
-        "target": packed(entries().map(|entry| entry.target)),
+        "target": packed(entries().map(|entry| entry.action)),
     })
 }
 
@@ -103,7 +103,7 @@ fn targets(material: &Material<'_>) -> Value {
     match targets.axes() {
         Some(axes) => json!({"axes": axes}),
         None => {
-            let points = (0..targets.len() as u32).map(|target| material.controller.target_point(target));
+            let points = (0..targets.len() as u32).map(|target| material.controller.action(target));
             json!({"points": points.collect::<Vec<_>>()})
         }
     }

@@ -1,11 +1,11 @@
 //! What a report is made of.
 
-use super::results::CrossChecks;
 use super::values::StepValues;
 use crate::controller::{Controller, Decision, Noise, Simulation, Tally, Trajectory};
 use crate::partition::{CellId, CellKind};
 use crate::problem::{Problem, StepNoise};
 use crate::run::Run;
+use imdp::engines::CrossCheckFile;
 use imdp::numeric::to_f64;
 use imdp::progress::Progress;
 use imdp::solver::Answer;
@@ -29,7 +29,7 @@ pub struct MaterialOptions {
     /// How long the phases so far took; empty for a page that is the same every time.
     pub times: Vec<(&'static str, Duration)>,
     /// What other engines said.
-    pub cross_checks: Option<CrossChecks>,
+    pub cross_checks: Option<CrossCheckFile>,
 }
 
 /// A solved run with its controller, simulated: everything a report shows.
@@ -142,10 +142,10 @@ impl<'a> Material<'a> {
 
     /// The mean of the state after the action of `cell` at `step`; `None` if there is none.
     pub(super) fn mean_successor(&self, cell: CellId, step: usize) -> Option<Vec<f64>> {
-        let Decision::Steer { target } = self.controller.decide_in(cell, step as u64) else {
+        let Decision::Act { action } = self.controller.decide_in(cell, step as u64) else {
             return None;
         };
-        let point = self.controller.target_point(target);
+        let point = self.controller.action(action);
         Some(point.iter().zip(&self.noise_mean).map(|(d, mean)| d + mean).collect())
     }
 }

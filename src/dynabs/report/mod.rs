@@ -26,7 +26,7 @@ mod words;
 
 pub use material::{Material, MaterialOptions};
 pub use page::{ReportError, page};
-pub use results::{CROSS_CHECK, CrossCheckError, CrossChecks};
+pub use results::{CROSS_CHECK, CrossCheckError, read_cross_checks};
 
 use heat_map::heat_map;
 use section::section;

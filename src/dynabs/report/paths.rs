@@ -93,10 +93,10 @@ pub(super) fn runs(material: &Material<'_>, view: &View, frame: &Frame) -> Strin
 
 /// How a run is drawn.
 pub(super) fn class(trajectory: &Trajectory) -> &'static str {
-    let steering = |decision| matches!(decision, Some(Decision::Steer { .. }));
+    let goes_on = |decision| matches!(decision, Some(Decision::Act { .. }));
     match trajectory.steps.last() {
         _ if trajectory.outcome.satisfied => "satisfied run",
-        Some(last) if steering(last.decision) => "open run",
+        Some(last) if goes_on(last.decision) => "open run",
         _ => "failed run",
     }
 }

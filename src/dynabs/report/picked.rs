@@ -29,10 +29,9 @@ pub(super) fn facts(
         _ => "none needed".to_owned(),
     };
     let (best, leads) = match material.controller.decide_in(cell, step as u64) {
-        Decision::Apply { input } => (format!("apply input {input}"), "–".to_owned()),
-        Decision::Steer { target } => {
+        Decision::Act { action } => {
             let next = material.mean_successor(cell, step).unwrap_or_default();
-            (format!("steer to d = {}", tuple(material.controller.target_point(target))), tuple(&next))
+            (format!("steer to d = {}", tuple(material.controller.action(action))), tuple(&next))
         }
         _ => ("none".to_owned(), "–".to_owned()),
     };

@@ -1,47 +1,13 @@
 //! What other engines said, if a run was cross-checked.
 
 use crate::run::Manifest;
-use serde::Deserialize;
+use imdp::certificate::FileDigest;
+use imdp::engines::CrossCheckFile;
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// The file in a run's directory with what `dynabs-check crosscheck DIR --json` printed.
 pub const CROSS_CHECK: &str = "crosscheck.json";
-
-/// The answers of other engines.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-pub struct CrossChecks {
-    /// The files of the model that was asked about.
-    #[serde(default)]
-    model: Vec<ModelFile>,
-    pub(super) findings: Vec<Finding>,
-}
-
-/// A file of a model.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-struct ModelFile {
-    kind: String,
-    sha256: String,
-}
-
-/// What one engine said about one property.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-pub(super) struct Finding {
-    pub(super) engine: String,
-    #[serde(default)]
-    pub(super) version: Option<String>,
-    pub(super) property: String,
-    /// Its least and greatest value of the initial states.
-    #[serde(default)]
-    pub(super) value: Option<[f64; 2]>,
-    /// Our bounds then.
-    pub(super) ours: [f64; 2],
-    #[serde(default)]
-    pub(super) difference: Option<f64>,
-    #[serde(default)]
-    pub(super) seconds: Option<f64>,
-    pub(super) agreement: String,
-}
 
 /// Why cross-check results cannot be shown.
 #[derive(Debug, thiserror::Error)]
@@ -55,7 +21,7 @@ pub enum CrossCheckError {
         error: io::Error,
     },
     /// The file is something else.
-    #[error("{path}: found something else ({error}); expected what `dynabs-check crosscheck --json` prints\n  Write it again or remove the file.", path = path.display())]
+    #[error("{path}: found something else ({error}); expected the findings of a cross-check in JSON\n  Write it again or remove the file.", path = path.display())]
     Malformed {
         /// The file.
         path: PathBuf,
@@ -70,35 +36,34 @@ pub enum CrossCheckError {
     },
 }
 
-impl CrossChecks {
-    /// The results in the directory of a run with this manifest; `None` if there are none.
-    ///
-    /// # Errors
-    /// [`CrossCheckError`] if the file is there but unreadable or something else, or about another model.
-    pub fn read(directory: &Path, manifest: &Manifest) -> Result<Option<Self>, CrossCheckError> {
-        let path = directory.join(CROSS_CHECK);
-        match imdp::files::read(&path) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(CrossCheckError::Io { path, error }),
-            Ok(bytes) => {
-                let found = serde_json::from_slice::<Self>(&bytes);
-                let found =
-                    found.map_err(|error| CrossCheckError::Malformed { path: path.clone(), error })?;
-                if found.is_about(manifest) {
-                    Ok(Some(found))
-                } else {
-                    Err(CrossCheckError::OtherModel { path })
-                }
+/// What engines said about the run in a directory with this manifest; `None` if they were not asked.
+///
+/// # Errors
+/// [`CrossCheckError`] if the file is there but unreadable or something else, or about another model.
+pub fn read_cross_checks(
+    directory: &Path,
+    manifest: &Manifest,
+) -> Result<Option<CrossCheckFile>, CrossCheckError> {
+    let path = directory.join(CROSS_CHECK);
+    match imdp::files::read(&path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(CrossCheckError::Io { path, error }),
+        Ok(bytes) => {
+            let found = serde_json::from_slice::<CrossCheckFile>(&bytes);
+            let found = found.map_err(|error| CrossCheckError::Malformed { path: path.clone(), error })?;
+            match is_about(&found.model, manifest) {
+                true => Ok(Some(found)),
+                false => Err(CrossCheckError::OtherModel { path }),
             }
         }
     }
+}
 
-    /// Whether every file that was asked about is one of the run.
-    fn is_about(&self, manifest: &Manifest) -> bool {
-        let is_output = |file: &ModelFile| {
-            let name = format!("model.{}", file.kind);
-            manifest.outputs.iter().any(|output| output.name == name && output.sha256 == file.sha256)
-        };
-        !self.model.is_empty() && self.model.iter().all(is_output)
-    }
+/// Whether every file that was asked about is one of the run.
+fn is_about(model: &[FileDigest], manifest: &Manifest) -> bool {
+    let is_output = |file: &FileDigest| {
+        let name = format!("model.{}", file.kind);
+        manifest.outputs.iter().any(|output| output.name == name && output.sha256 == file.sha256)
+    };
+    !model.is_empty() && model.iter().all(is_output)
 }

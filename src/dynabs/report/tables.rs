@@ -3,9 +3,9 @@
 use super::markup::{escape, table};
 use super::material::Material;
 use super::numbers::{short, tuple};
-use super::results::CrossChecks;
 use crate::guarantee::{Evidence, Safety};
 use crate::run::Run;
+use imdp::engines::CrossCheckFile;
 
 /// A number with thin spaces between groups of three digits.
 fn count(n: u64) -> String {
@@ -139,7 +139,7 @@ pub(super) fn budget(run: &Run) -> String {
 }
 
 /// What other engines said; empty if nobody was asked.
-pub(super) fn cross_checks(results: Option<&CrossChecks>) -> String {
+pub(super) fn cross_checks(results: Option<&CrossCheckFile>) -> String {
     let Some(results) = results else { return String::new() };
     let or_dash = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
     let interval = |[lower, upper]: [f64; 2]| {
@@ -153,7 +153,7 @@ pub(super) fn cross_checks(results: Option<&CrossChecks>) -> String {
             interval(finding.ours),
             or_dash(finding.difference.map(|difference| format!("{difference:.1e}"))),
             or_dash(finding.seconds.map(|seconds| format!("{seconds:.2} s"))),
-            escape(&finding.agreement),
+            finding.agreement.word().to_owned(),
         ]
     });
     let header = ["engine", "property", "its value", "ours", "largest difference", "time", "outcome"];
@@ -175,7 +175,9 @@ pub(super) fn provenance(run: &Run) -> String {
         .collect();
     let set = match manifest.set.is_empty() {
         true => String::new(),
-        false => format!("<p>Changed with --set: <code>{}</code></p>\n", escape(&manifest.set.join(" "))),
+        false => {
+            format!("<p>Changed in the model file: <code>{}</code></p>\n", escape(&manifest.set.join(" ")))
+        }
     };
     set + &table("Files", &["file", "", "SHA-256"], &rows)
 }

@@ -1,6 +1,7 @@
 //! How the directory of a run takes its place.
 
 use imdp::files::{StagedDirectory, claim, sync_directory};
+use imdp::formats::Format;
 use std::fs::{self, File};
 use std::io;
 use std::path::Path;
@@ -142,11 +143,13 @@ pub(super) fn settle(directory: &Path) -> io::Result<()> {
 /// Whether a file in the directory of a run is one that a run can have: the others are the user's.
 fn is_own(name: &str) -> bool {
     const STEMS: [&str; 2] = ["model", "rows"];
-    const EXTENSIONS: [&str; 7] = ["tra", "sta", "lab", "drn", "umb", "dynabs", "props"];
+    let is_ours = |extension| {
+        extension == "props" || Format::ALL.iter().any(|format| format.extensions().contains(&extension))
+    };
     let is_part = |(stem, extension): (&str, &str)| match extension {
         // Several structures have numbers.
         "srew" | "trew" => STEMS.contains(&stem.trim_end_matches(|c: char| c.is_ascii_digit())),
-        extension => STEMS.contains(&stem) && EXTENSIONS.contains(&extension),
+        extension => STEMS.contains(&stem) && is_ours(extension),
     };
     [MANIFEST, PROBLEM, NOISE, SOLUTION].contains(&name) || name.split_once('.').is_some_and(is_part)
 }

@@ -38,7 +38,7 @@ pub enum OpenError {
     },
     /// The model was pruned.
     #[error(
-        "{path}: found a pruned model; expected the whole one, whose actions are compared with the law\n  Compile it without --prune: the value and the policy are the same."
+        "{path}: found a pruned model; expected the whole one, whose actions are compared with the law\n  Compile the whole model: the value and the policy are the same."
     )]
     Pruned {
         /// The directory.

@@ -5,8 +5,9 @@ use super::appearance::{NATIVE_MODEL, NOISE, PROBLEM};
 use super::error::OpenError;
 use super::manifest::{GroupedHorizon, InputFile, Manifest};
 use super::open::problem_document;
+use super::solution::{ON_LATTICE, stored};
 use super::staging::{RunDirectoryError, Staging};
-use super::write::{WriteOptions, begin_with_model, self_contained, write_samples};
+use super::write::{WriteOptions, begin_with_model, self_contained, write_samples, write_solution};
 use crate::abstraction::inputs::{InputAbstraction, InputEncoding, InputModel};
 use crate::guarantee::{Event, Guarantee};
 use crate::landing::LandingSolution;
@@ -33,6 +34,8 @@ pub struct InputRun {
     pub problem: InputProblem,
     /// Its abstraction.
     pub abstraction: InputAbstraction,
+    /// The solution of the task, if it was solved when the run was written.
+    solution: Option<LandingSolution>,
 }
 
 impl InputRun {
@@ -65,10 +68,19 @@ impl InputRun {
         }
         let abstraction = InputAbstraction::new(&problem)
             .map_err(|error| OpenError::Inputs { path: shown(), error: Box::new(error) })?;
-        Ok(Self { directory: directory.to_path_buf(), manifest, problem: *problem, abstraction })
+        let (question, inputs) = (abstraction.question(), problem.inputs().len());
+        let is_input = |_, input| (input as usize) < inputs;
+        let solution = stored(&files, (PROBLEM, ON_LATTICE), question.num_pairs(), &is_input)?;
+        let solution = solution.and_then(|solution| question.restored(solution));
+        Ok(Self { directory: directory.to_path_buf(), manifest, problem: *problem, abstraction, solution })
     }
 
-    /// Bounds on the value of every cell and the policy behind them; the same for the same directory and options.
+    /// The solution of the task: the one that the run holds, or else it is computed, with the same result.
+    pub fn solution(&self, options: &SolverOptions<'_>) -> LandingSolution {
+        self.solution.clone().unwrap_or_else(|| self.solve(options))
+    }
+
+    /// Computes bounds on the value of every cell and the policy behind them; the same for the same directory and options.
     pub fn solve(&self, options: &SolverOptions<'_>) -> LandingSolution {
         self.abstraction.question().solve(options)
     }
@@ -182,6 +194,7 @@ pub fn write_input_run(
     let is_file = samples.and_then(SampledNoise::file).is_some();
     let value = self_contained(with_automaton(document.value.clone(), problem.objective()), is_file);
     staging.write(PROBLEM, |out| out.write_all(value.as_bytes()))?;
+    write_solution(&mut staging, (PROBLEM, ON_LATTICE), options.solution)?;
     if let Some(samples) = samples {
         staging.write(NOISE, |out| write_samples(samples, out))?;
     }

@@ -93,7 +93,9 @@ impl Run {
         let guarantee = manifest.guarantee.clone();
         let abstraction = Abstraction::reopen(&problem, model, guarantee, progress)
             .map_err(|error| OpenError::Abstraction { path: shown, error })?;
-        let solution = stored(&files, &abstraction.property, &abstraction.model)?;
+        let (model, property) = (&abstraction.model, abstraction.property.to_string());
+        let is_choice = |state, choice| model.choices().row_of_choice(state, choice).is_some();
+        let solution = stored(&files, (NATIVE_MODEL, &property), model.num_states(), &is_choice)?;
         Ok(Self { directory: directory.to_path_buf(), manifest, document, problem, abstraction, solution })
     }
 

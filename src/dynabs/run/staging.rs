@@ -15,9 +15,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum RunDirectoryError {
     /// The place is taken by something that is not ours.
-    #[error(
-        "{path}: {found}; expected a new or empty directory, or one that dynabs-compile wrote\n  Choose another name with -o; --force replaces only directories written by dynabs-compile."
-    )]
+    #[error("{path}: {found}; expected a new or empty directory, or one that dynabs-compile wrote")]
     Foreign {
         /// The path.
         path: String,
@@ -25,16 +23,14 @@ pub enum RunDirectoryError {
         found: &'static str,
     },
     /// An earlier run is there.
-    #[error(
-        "{path}: found the output of an earlier run; expected a new or empty directory\n  Choose another name with -o, or replace it with --force."
-    )]
+    #[error("{path}: found the output of an earlier run; expected a new or empty directory")]
     Exists {
         /// The path.
         path: String,
     },
     /// Another process wrote there meanwhile.
     #[error(
-        "{path}: found what another process wrote meanwhile; expected what was there before\n  Nothing was written. Run it again, with --force if the other output may go."
+        "{path}: found what another process wrote meanwhile; expected what was there before\n  Nothing was written."
     )]
     Raced {
         /// The path.
@@ -42,7 +38,7 @@ pub enum RunDirectoryError {
     },
     /// The disk has no room.
     #[error(
-        "{path}: the output needs {needed_mib} MiB but the disk has only {free_mib} MiB free\n  Leave out the explicit files with --no-tra, or choose another disk with -o."
+        "{path}: found a disk with {free_mib} MiB free; expected the {needed_mib} MiB that the output needs"
     )]
     DiskFull {
         /// The path.
@@ -53,9 +49,7 @@ pub enum RunDirectoryError {
         free_mib: u64,
     },
     /// The model cannot be written in a format.
-    #[error(
-        "{0}\n  Leave out the explicit files with --no-tra, or use --encoding rows, a coarser partition, or a smaller U or U'."
-    )]
+    #[error("{0}")]
     Format(#[from] WriteError),
     /// The model or its property has no encoding with row states.
     #[error(transparent)]

@@ -53,11 +53,8 @@ pub fn write_run(
     let (mut staging, row_states) = begin_with_model(target, model, asked, &options, progress)?;
     manifest.row_states = row_states;
     staging.write(NATIVE_MODEL, |out| native::write(model, out))?;
-    if let Some(solution) = options.solution.filter(|solution| is_final(solution)) {
-        let model = staging.files().iter().find(|file| file.name == NATIVE_MODEL);
-        let sha256 = model.map_or_else(String::new, |file| file.sha256.clone());
-        staging.write(SOLUTION, |out| solution_file::write(&abstraction.property, &sha256, solution, out))?;
-    }
+    let property = abstraction.property.to_string();
+    write_solution(&mut staging, (NATIVE_MODEL, &property), options.solution)?;
     staging.write("model.props", |out| writeln!(out, "{}", abstraction.property))?;
     let is_file = problem.noise().file().is_some();
     staging
@@ -109,6 +106,18 @@ pub(super) fn begin_with_model(
     staging.write("rows.props", |out| properties.iter().try_for_each(|text| writeln!(out, "{text}")))?;
     let first = properties.into_iter().next().unwrap_or_default();
     Ok((staging, Some(RowStatesReport::new(encoded, first))))
+}
+
+/// Keeps a solution of what one of the files that are written says, if it is as good as another computation would be.
+pub(super) fn write_solution(
+    staging: &mut Staging,
+    (file, property): (&str, &str),
+    solution: Option<&Solution>,
+) -> Result<(), RunDirectoryError> {
+    let Some(solution) = solution.filter(|solution| is_final(solution)) else { return Ok(()) };
+    let of = staging.files().iter().find(|written| written.name == file);
+    let sha256 = of.map_or_else(String::new, |written| written.sha256.clone());
+    staging.write(SOLUTION, |out| solution_file::write(property, &sha256, solution, out))
 }
 
 /// The samples as they were read, or drawn.

@@ -57,7 +57,7 @@ pub enum Statement {
 }
 
 /// A file that a model was read from.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct FileDigest {
     /// What it is: `dynabs` for the native format; `tra`, `sta` and `lab` for PRISM's explicit files.
     pub kind: String,

@@ -5,23 +5,8 @@ use super::diff_labels::diff_labels;
 use super::diff_models::diff_models;
 use super::diff_policies::diff_policies;
 use super::diff_values::{diff_results, diff_values};
-use super::{CompareError, Differences, Record, Section, Sizes, Tolerance};
+use super::{CompareError, DiffOptions, Differences, Record, Section, Sizes};
 use crate::property::parse_property;
-
-/// What counts as a difference, and how many are described.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DiffOptions {
-    /// How far two numbers may be apart.
-    pub tolerance: Tolerance,
-    /// How many differences of each part are described.
-    pub most: usize,
-}
-
-impl Default for DiffOptions {
-    fn default() -> Self {
-        Self { tolerance: Tolerance::default(), most: 10 }
-    }
-}
 
 /// Compares all that both sides have.
 ///

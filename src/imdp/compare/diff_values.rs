@@ -1,6 +1,7 @@
 //! Results of properties, and values of states.
 
-use super::{DiffOptions, Differences, Record, RecordedResult, RecordedValues, Section};
+use super::{DiffOptions, Differences, Record, RecordedResult, Section};
+use crate::formats::StateValues;
 
 /// Compares the answers to properties that both sides have, paired by their text.
 pub(super) fn diff_results(left: &Record, right: &Record, options: &DiffOptions, out: &mut Differences) {
@@ -26,6 +27,7 @@ fn diff_result(a: &RecordedResult, b: &RecordedResult, options: &DiffOptions, se
     section.compared += 4;
     let numbers = [("lower", a.lower, b.lower), ("upper", a.upper, b.upper)];
     for (what, x, y) in numbers {
+        let (Some(x), Some(y)) = (x, y) else { continue };
         if let Some(by) = options.tolerance.excess(x, y) {
             section.add(1, Some(by), || {
                 (format!("{what} bound of {}", a.property), x.to_string(), y.to_string())
@@ -47,7 +49,7 @@ pub(super) fn diff_values(left: &Record, right: &Record, options: &DiffOptions, 
     let (Some(a), Some(b)) = (&left.values, &right.values) else { return };
     let mut section = Section::new("values", options.most);
     let lengths = match (a, b) {
-        (RecordedValues::Numbers(a), RecordedValues::Numbers(b)) => {
+        (StateValues::Numbers(a), StateValues::Numbers(b)) => {
             for (state, (&x, &y)) in a.iter().zip(b).enumerate().take(comparable(a.len(), b.len())) {
                 if let Some(by) = options.tolerance.excess(x, y) {
                     section.add(1, Some(by), || (format!("state {state}"), x.to_string(), y.to_string()));
@@ -55,11 +57,11 @@ pub(super) fn diff_values(left: &Record, right: &Record, options: &DiffOptions, 
             }
             (a.len(), b.len())
         }
-        (RecordedValues::Verdicts(a), RecordedValues::Verdicts(b)) => {
+        (StateValues::Verdicts(a), StateValues::Verdicts(b)) => {
             for (state, (x, y)) in
                 a.iter().zip(b).enumerate().take(comparable(a.len(), b.len())).filter(|(_, (x, y))| x != y)
             {
-                section.add(1, None, || (format!("state {state}"), x.clone(), y.clone()));
+                section.add(1, None, || (format!("state {state}"), x.to_string(), y.to_string()));
             }
             (a.len(), b.len())
         }

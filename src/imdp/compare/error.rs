@@ -1,7 +1,8 @@
 //! Why two sides cannot be compared.
 
+use crate::evaluation::EvaluationError;
 use crate::files::is_fault_of_input;
-use crate::formats::ImportError;
+use crate::formats::{Format, ImportError};
 use crate::property::{ParseError, PropertyError};
 use crate::solver::SolveError;
 use std::io;
@@ -12,7 +13,8 @@ use std::io;
 pub enum CompareError {
     /// There is nothing of this name.
     #[error(
-        "{path}: found nothing; expected a run directory, a .tra, .drn, .umb or .dynabs file, results in JSON or a reference file"
+        "{path}: found nothing; expected a run directory, a file that ends in {}, results in JSON or a reference file",
+        Format::endings(Format::all())
     )]
     Missing {
         /// The path.
@@ -26,7 +28,7 @@ pub enum CompareError {
         /// What is there.
         found: String,
         /// What would be of use.
-        expected: &'static str,
+        expected: String,
     },
     /// A file cannot be read.
     #[error("{path}: {error}")]
@@ -62,6 +64,14 @@ pub enum CompareError {
         property: String,
         /// Why.
         error: SolveError,
+    },
+    /// An expression cannot be evaluated.
+    #[error("{property}: {error}")]
+    Expression {
+        /// The expression.
+        property: String,
+        /// Why.
+        error: EvaluationError,
     },
     /// A policy takes an action that its model does not have.
     #[error("{side}: the policy takes \"{action}\" in state {state}; expected a choice of that state")]

@@ -1,10 +1,9 @@
 //! Finding out what a path holds.
 
-use super::{CompareError, PolicyFile, Record, RecordedResult, RecordedValues, Reference, Sizes};
+use super::{CompareError, PolicyFile, Record, RecordedResult, Reference, ResultsFile, Sizes};
 use crate::files;
-use crate::formats::{Format, bmdp};
+use crate::formats::{Format, LineError, StateValues, bmdp};
 use crate::property::{Definitions, Entry, Inquiry, Property, parse_document};
-use serde::Deserialize;
 use serde_json::Value;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -33,7 +32,8 @@ pub fn open(path: &Path) -> Result<Record, CompareError> {
             }
             Some("json") => open_json(path)?,
             _ => {
-                let expected = "a directory, or a file that ends in .tra, .drn, .umb, .dynabs or .json";
+                let endings = Format::endings(Format::all());
+                let expected = format!("a directory, or a file that ends in {endings}, or in .json");
                 return Err(CompareError::Unusable { path: name, found: "another file".into(), expected });
             }
         }
@@ -49,7 +49,7 @@ fn open_directory(directory: &Path) -> Result<Record, CompareError> {
     collect(directory)?.ok_or_else(|| CompareError::Unusable {
         path: directory.display().to_string(),
         found: "none of the files of a run".into(),
-        expected: FILES,
+        expected: FILES.to_owned(),
     })
 }
 
@@ -69,16 +69,11 @@ pub fn collect(directory: &Path) -> Result<Option<Record>, CompareError> {
         found = true;
     }
     if let Some(path) = at("values.txt") {
-        record.values = Some(parse_values(&path, &read(&path)?)?);
+        record.values = Some(StateValues::read(&read(&path)?).map_err(|error| in_line(&path, error))?);
         found = true;
     }
     if let Some(path) = at("policy.txt") {
-        let policy = PolicyFile::parse(&read(&path)?);
-        record.policy = Some(policy.map_err(|(line, found)| CompareError::Unusable {
-            path: format!("{}:{line}", path.display()),
-            found: format!("\"{found}\""),
-            expected: "`state=action` or `state,step=action`, each state and step once",
-        })?);
+        record.policy = Some(PolicyFile::parse(&read(&path)?).map_err(|error| in_line(&path, error))?);
         found = true;
     }
     Ok(found.then_some(record))
@@ -107,21 +102,12 @@ fn read_properties(path: &Path) -> Result<Vec<Property>, CompareError> {
     entries.into_iter().filter_map(single).collect()
 }
 
-/// What `dynabs-check solve --json` prints, as far as it is compared.
-#[derive(Deserialize)]
-struct ResultsFile {
-    states: Option<u64>,
-    choices: Option<u64>,
-    transitions: Option<u64>,
-    results: Vec<Value>,
-}
-
 fn open_json(path: &Path) -> Result<Record, CompareError> {
-    const EXPECTED: &str = "results of `dynabs-check solve --json` or a reference file";
+    const EXPECTED: &str = "results in JSON or a reference file";
     let text = read(path)?;
     let value: Value = parse(path, &text, EXPECTED)?;
     if !Reference::is_one(&value) {
-        let file: ResultsFile = parse(path, &text, EXPECTED)?;
+        let file: ResultsFile<RecordedResult> = parse(path, &text, EXPECTED)?;
         let sizes = match (file.states, file.choices, file.transitions) {
             (Some(states), Some(choices), Some(transitions)) => {
                 Some(Sizes { states, choices, transitions, rows: None, entries: None })
@@ -129,15 +115,10 @@ fn open_json(path: &Path) -> Result<Record, CompareError> {
             _ => None,
         };
         // Formulas have no value, and infinite ones have no number: they are not compared.
-        let has_numbers = |result: &Value| result["lower"].is_number() && result["upper"].is_number();
-        let is_other = |bound: &Value| bound.is_null() || bound.is_string();
-        let mut results = vec![];
-        for result in file.results {
-            if has_numbers(&result) || !is_other(&result["lower"]) || result.get("lower").is_none() {
-                let read = serde_json::from_value::<RecordedResult>(result);
-                results.push(read.map_err(|error| unusable(path, error.to_string(), EXPECTED))?);
-            }
-        }
+        let is_finite = |result: &RecordedResult| {
+            [result.lower, result.upper].iter().all(|bound| bound.is_some_and(f64::is_finite))
+        };
+        let results = file.results.into_iter().filter(is_finite).collect();
         return Ok(Record { sizes, results, ..Record::default() });
     }
     let reference: Reference = parse(path, &text, EXPECTED)?;
@@ -153,26 +134,15 @@ impl From<Reference> for Record {
             sizes: Some(reference.sizes),
             digest: Some(reference.model),
             results: reference.results,
-            values: Some(reference.values).filter(|values| !values.is_empty()).map(RecordedValues::Numbers),
+            values: Some(reference.values).filter(|values| !values.is_empty()).map(StateValues::Numbers),
             ..Self::default()
         }
     }
 }
 
-fn parse_values(path: &Path, text: &str) -> Result<RecordedValues, CompareError> {
-    let lines: Vec<&str> = text.lines().map(str::trim).collect();
-    let is_verdict = |line: &&str| ["true", "false", "undecided"].contains(line);
-    if !lines.is_empty() && lines.iter().all(is_verdict) {
-        return Ok(RecordedValues::Verdicts(lines.into_iter().map(str::to_owned).collect()));
-    }
-    let numbers = (1..).zip(&lines).map(|(number, line)| {
-        line.parse().map_err(|_| CompareError::Unusable {
-            path: format!("{}:{number}", path.display()),
-            found: format!("\"{line}\""),
-            expected: "a number in every line, or true, false or undecided in every line",
-        })
-    });
-    numbers.collect::<Result<_, _>>().map(RecordedValues::Numbers)
+fn in_line(path: &Path, LineError { line, found, expected }: LineError) -> CompareError {
+    let path = format!("{}:{line}", path.display());
+    CompareError::Unusable { path, found: format!("\"{found}\""), expected: expected.to_owned() }
 }
 
 fn parse<T: serde::de::DeserializeOwned>(
@@ -184,7 +154,7 @@ fn parse<T: serde::de::DeserializeOwned>(
 }
 
 fn unusable(path: &Path, found: String, expected: &'static str) -> CompareError {
-    CompareError::Unusable { path: path.display().to_string(), found, expected }
+    CompareError::Unusable { path: path.display().to_string(), found, expected: expected.to_owned() }
 }
 
 fn read(path: &Path) -> Result<String, CompareError> {

@@ -1,5 +1,6 @@
-//! Policies as lines `state=action` or `state,step=action`.
+//! Policies as they were recorded.
 
+use crate::formats::{LineError, PolicyEntry};
 use crate::model::StateId;
 use std::collections::BTreeMap;
 
@@ -14,23 +15,15 @@ impl PolicyFile {
     /// Reads a policy.
     ///
     /// # Errors
-    /// The first line, counted from 1, that is not of this form or repeats a state and step.
-    pub fn parse(text: &str) -> Result<Self, (usize, String)> {
+    /// [`LineError`] for the first line that is not of this form or repeats a state and step.
+    pub fn parse(text: &str) -> Result<Self, LineError> {
         let mut actions = BTreeMap::new();
-        for (number, line) in (1..).zip(text.lines()) {
-            let line = line.trim();
-            if line.is_empty() {
-                continue;
-            }
-            let refuse = || (number, line.to_owned());
-            let (key, action) = line.split_once('=').ok_or_else(refuse)?;
-            let (state, step) = match key.split_once(',') {
-                None => (key, None),
-                Some((state, step)) => (state, Some(step.parse().map_err(|_| refuse())?)),
-            };
-            let state = state.parse().map_err(|_| refuse())?;
-            if action.is_empty() || actions.insert((state, step), action.to_owned()).is_some() {
-                return Err(refuse());
+        for (line, entry) in PolicyEntry::read(text) {
+            let entry = entry?;
+            let found = entry.to_string();
+            let PolicyEntry { state, step, action } = entry;
+            if actions.insert((state, step), action.into_owned()).is_some() {
+                return Err(LineError { line, found, expected: "each state and step once" });
             }
         }
         Ok(Self { actions })
@@ -47,7 +40,7 @@ mod tests {
         assert_eq!(policy.actions[&(StateId(3), None)], "a_1");
         assert_eq!(policy.actions[&(StateId(4), Some(1))], "0");
         for (text, line) in [("3", 1), ("1=a\nx=b", 2), ("1,x=a", 1), ("1=a\n1=b", 2), ("1=", 1)] {
-            assert_eq!(PolicyFile::parse(text).unwrap_err().0, line, "{text}");
+            assert_eq!(PolicyFile::parse(text).unwrap_err().line, line, "{text}");
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What is known of one side of a comparison.
 
 use super::{CompareError, ModelDigest, PolicyFile, RecordedResult, Sizes};
+use crate::formats::StateValues;
 use crate::model::IntervalMdp;
 use crate::property::Property;
 use crate::solver::{Answer, AnswerError, SolverOptions};
@@ -23,20 +24,11 @@ pub struct Record {
     /// Answers to properties.
     pub results: Vec<RecordedResult>,
     /// The answer in every state, to the first property.
-    pub values: Option<RecordedValues>,
+    pub values: Option<StateValues>,
     /// A policy for the first property.
     pub policy: Option<PolicyFile>,
     /// What the user should know about it.
     pub notes: Vec<String>,
-}
-
-/// The answer to a property in every state.
-#[derive(Clone, Debug, PartialEq)]
-pub enum RecordedValues {
-    /// Lower bounds.
-    Numbers(Vec<f64>),
-    /// `true`, `false` or `undecided`, for thresholds.
-    Verdicts(Vec<String>),
 }
 
 impl Record {
@@ -69,15 +61,16 @@ impl Record {
         }
         let answer = answer(model, property)?;
         if first && self.values.is_none() {
-            self.values = Some(RecordedValues::Numbers(answer.values.lower.clone()));
+            self.values = Some(StateValues::Numbers(answer.values.lower.clone()));
         }
         if !known {
             self.results.push(RecordedResult {
                 property: text,
-                lower: answer.lower,
-                upper: answer.upper,
+                lower: Some(answer.lower),
+                upper: Some(answer.upper),
                 satisfied: answer.satisfied(),
                 status: Some(answer.solution.status.to_string()),
+                ..RecordedResult::default()
             });
         }
         Ok(())

@@ -1,7 +1,8 @@
 //! Reference files: what a model and its values are known to be.
 
 use super::compact_json::compact_json;
-use super::{CompareError, ModelDigest, Record, RecordedResult, RecordedValues, Sizes};
+use super::{CompareError, ModelDigest, Record, RecordedResult, Sizes};
+use crate::formats::StateValues;
 use serde::{Deserialize, Serialize};
 
 const FORMAT: &str = "dynabs reference";
@@ -37,7 +38,7 @@ impl Reference {
         let model =
             record.model.as_ref().ok_or_else(|| CompareError::NoModel { path: record.name.clone() })?;
         let values = match &record.values {
-            Some(RecordedValues::Numbers(values)) => values.iter().copied().map(twelve_digits).collect(),
+            Some(StateValues::Numbers(values)) => values.iter().copied().map(twelve_digits).collect(),
             _ => vec![],
         };
         Ok(Self {

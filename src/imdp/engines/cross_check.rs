@@ -2,14 +2,17 @@
 
 use super::judge::{Judgement, hull, judge, tolerance};
 use super::{
-    Agreement, Engine, EngineAnswer, EngineQuestion, Finding, Reply, RunLimits, StrategyFinding, Subject,
+    Agreement, Engine, EngineAnswer, EngineQuestion, Finding, QuestionKind, Reply, RunLimits,
+    StrategyFinding, Subject,
 };
 use crate::compare::backup::Backup;
 use crate::compare::record::answer_within;
 use crate::compare::{CompareError, Tolerance};
+use crate::evaluation::Evaluation;
 use crate::formats::prism::RAISED_LOWER_BOUND;
-use crate::property::Property;
-use crate::solver::{Answer, SolverOptions, ValueBounds};
+use crate::model::IntervalMdp;
+use crate::property::Inquiry;
+use crate::solver::{Solution, SolverOptions, Status, ValueBounds};
 
 /// How to ask.
 #[derive(Clone, Copy)]
@@ -23,23 +26,31 @@ pub struct CrossCheckOptions<'a> {
 /// What we know about a question.
 struct Ours {
     question: EngineQuestion,
-    answer: Answer,
-    /// The values of the model with raised lower bounds, where they may be others.
+    known: Known,
+    /// The bounds of the model with raised lower bounds, where they may be others.
     raised: Option<ValueBounds>,
 }
 
-/// Asks every engine every property, and compares the values of all states and the strategies with ours.
+/// Bounds on the value of every state.
+struct Known {
+    values: ValueBounds,
+    /// Bounds on the probability of the event that the value is about, if it is about one.
+    event: ValueBounds,
+    status: Status,
+}
+
+/// Asks every engine everything, and compares the values of all states and the strategies with ours.
 ///
 /// # Errors
-/// [`CompareError`] if a property does not fit the model; what happens to an engine is a [`Finding`].
+/// [`CompareError`] if a question does not fit the model; what happens to an engine is a [`Finding`].
 pub fn cross_check(
     subject: &Subject<'_>,
-    properties: &[Property],
+    inquiries: &[Inquiry],
     engines: &[&dyn Engine],
     options: &CrossCheckOptions<'_>,
 ) -> Result<Vec<Finding>, CompareError> {
-    let ours = |property| Ours::new(subject, property, &options.solver);
-    let ours: Vec<Ours> = properties.iter().map(ours).collect::<Result<_, _>>()?;
+    let ours = |inquiry| Ours::new(subject, inquiry, &options.solver);
+    let ours: Vec<Ours> = inquiries.iter().map(ours).collect::<Result<_, _>>()?;
     let questions: Vec<EngineQuestion> = ours.iter().map(|ours| ours.question.clone()).collect();
     let mut findings = vec![];
     for engine in engines {
@@ -54,19 +65,22 @@ pub fn cross_check(
 impl Ours {
     fn new(
         subject: &Subject<'_>,
-        property: &Property,
+        inquiry: &Inquiry,
         options: &SolverOptions<'_>,
     ) -> Result<Self, CompareError> {
-        let question = EngineQuestion::new(property, subject.model)?;
-        let answer = answer_within(subject.model, &question.value, options)?;
+        let question = match inquiry {
+            Inquiry::Probability(property) => EngineQuestion::new(property, subject.model)?,
+            Inquiry::Compound(compound) => EngineQuestion::expression(compound),
+        };
+        let known = Known::new(subject.model, &question, options)?;
         let raised = match subject.raised {
             // Within a bounded number of steps it makes no difference in doubles.
             Some(raised) if question.steps().is_none() => {
-                Some(answer_within(raised, &question.value, options)?.values)
+                Some(Known::new(raised, &question, options)?.values)
             }
             _ => None,
         };
-        Ok(Self { question, answer, raised })
+        Ok(Self { question, known, raised })
     }
 
     fn compare(
@@ -76,13 +90,17 @@ impl Ours {
         Reply { version, outcome }: Reply,
         options: &SolverOptions<'_>,
     ) -> Result<Finding, CompareError> {
+        let initial = || subject.model.initial().ones();
         let (allowed, why) = tolerance(&self.question, subject.model, &engine.stopping());
         let mut finding = Finding {
-            engine: engine.name(),
+            engine: engine.name().to_owned(),
             version,
-            property: self.question.property.to_string(),
+            property: self.question.property.clone(),
             value: None,
-            ours: [self.answer.lower, self.answer.upper],
+            ours: [
+                initial().map(|s| self.known.values.lower[s]).fold(f64::INFINITY, f64::min),
+                initial().map(|s| self.known.values.upper[s]).fold(f64::NEG_INFINITY, f64::max),
+            ],
             difference: None,
             state: None,
             tolerance: why,
@@ -99,9 +117,9 @@ impl Ours {
                 return Ok(finding);
             }
         };
-        let initial = || subject.model.initial().ones().map(|state| reply.values[state]);
+        let values = || initial().map(|state| reply.values[state]);
         finding.value =
-            Some([initial().fold(f64::INFINITY, f64::min), initial().fold(f64::NEG_INFINITY, f64::max)]);
+            Some([values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]);
         finding.seconds = Some(reply.time.as_secs_f64());
         finding.peak_mib = reply.peak_mib;
         let mut judgement = self.judge(&reply, allowed, &mut finding.notes);
@@ -120,15 +138,15 @@ impl Ours {
 
     /// Compares with the values of the model as it is or, as a whole, with those of what the engine was given.
     fn judge(&self, reply: &EngineAnswer, allowed: Tolerance, notes: &mut Vec<String>) -> Judgement {
-        let plain = judge(&reply.values, &self.answer.values, allowed);
+        let plain = judge(&reply.values, &self.known.values, allowed);
         let Some(raised) = &self.raised else {
             if plain.agreement == Agreement::Undecided {
-                notes.push(format!("our own bounds are not closer: {}", self.answer.solution.status));
+                notes.push(format!("our own bounds are not closer: {}", self.known.status));
             }
             return plain;
         };
         let changed =
-            (0..raised.lower.len()).filter(|&s| apart(&self.answer.values, raised, s) > allowed.relative);
+            (0..raised.lower.len()).filter(|&s| apart(&self.known.values, raised, s) > allowed.relative);
         let changed = changed.count();
         if changed > 0 {
             notes.push(format!(
@@ -144,20 +162,19 @@ impl Ours {
             return given;
         }
         // The iterations of the engine lie between the two.
-        judge(&reply.values, &hull(&self.answer.values, raised), allowed)
+        judge(&reply.values, &hull(&self.known.values, raised), allowed)
     }
 
     /// Whether the values are those of an iteration from below that the engine's rule lets end here.
     fn stopped_early(&self, subject: &Subject<'_>, engine: &dyn Engine, reply: &EngineAnswer) -> bool {
-        if self.question.steps().is_some() {
+        let Some(query) = self.question.query().filter(|_| self.question.steps().is_none()) else {
             return false;
-        }
-        let query = &self.question.query;
+        };
         let event = |value: f64| if query.complement { 1.0 - value } else { value };
         let values: Vec<f64> = reply.values.iter().map(|&value| event(value)).collect();
         let model = subject.raised.unwrap_or(subject.model);
         let next = Backup::new(model, query).step(&values);
-        let upper = &self.answer.solution.values.upper;
+        let upper = &self.known.event.upper;
         (0..values.len()).all(|s| {
             let rounding = 1e-14;
             (next[s] - values[s]).abs() <= engine.settled(next[s]) + rounding && values[s] <= upper[s] + 1e-9
@@ -173,8 +190,7 @@ impl Ours {
         options: &SolverOptions<'_>,
         finding: &mut Finding,
     ) -> Result<(), CompareError> {
-        let Some(strategy) = &reply.strategy else { return Ok(()) };
-        let query = &self.question.query;
+        let (Some(strategy), Some(query)) = (&reply.strategy, self.question.query()) else { return Ok(()) };
         let model = subject.raised.unwrap_or(subject.model);
         let attained = strategy.attained(model, query, options)?;
         let short = |s: usize| {
@@ -202,7 +218,30 @@ impl Ours {
     }
 }
 
+impl Known {
+    fn new(
+        model: &IntervalMdp,
+        question: &EngineQuestion,
+        options: &SolverOptions<'_>,
+    ) -> Result<Self, CompareError> {
+        match &question.kind {
+            QuestionKind::Event { value, .. } => {
+                let answer = answer_within(model, value, options)?;
+                let Solution { values: event, status, .. } = answer.solution;
+                Ok(Self { values: answer.values, event, status })
+            }
+            QuestionKind::Expression(compound) => {
+                let failure = |error| CompareError::Expression { property: compound.to_string(), error };
+                let evaluation = Evaluation::new(model, compound, None, options).map_err(failure)?;
+                let values = evaluation.value_bounds(model.num_states());
+                Ok(Self { event: values.clone(), values, status: evaluation.status })
+            }
+        }
+    }
+}
+
 /// How far apart the bounds of two models certainly are.
 fn apart(a: &ValueBounds, b: &ValueBounds, state: usize) -> f64 {
-    (a.lower[state] - b.upper[state]).max(b.lower[state] - a.upper[state])
+    let above = |a: f64, b: f64| if a == b { 0.0 } else { a - b };
+    above(a.lower[state], b.upper[state]).max(above(b.lower[state], a.upper[state]))
 }

@@ -31,15 +31,13 @@ pub enum EngineFailure {
         said: String,
     },
     /// It took longer than it was given, and was ended.
-    #[error("it did not answer within {seconds} s and was ended; give it more with --timeout")]
+    #[error("it did not answer within {seconds} s and was ended")]
     Timeout {
         /// The time it was given.
         seconds: f64,
     },
     /// It took more memory than it was given, and was ended.
-    #[error(
-        "it used {used_mib} MiB of memory, more than the {given_mib} MiB given, and was ended; see --memory"
-    )]
+    #[error("it used {used_mib} MiB of memory, more than the {given_mib} MiB given, and was ended")]
     Memory {
         /// What it used.
         used_mib: u64,

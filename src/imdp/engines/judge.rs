@@ -54,7 +54,9 @@ pub(super) fn judge(values: &[f64], bounds: &ValueBounds, tolerance: Tolerance) 
     let mut judgement = Judgement { agreement: Agreement::Agrees, difference: 0.0, state: 0 };
     for (state, &value) in values.iter().enumerate() {
         let (lower, upper) = (bounds.lower[state], bounds.upper[state]);
-        let difference = (value - lower).max(upper - value);
+        // What is equal does not differ, not even if it is infinite.
+        let above = |a: f64, b: f64| if a == b { 0.0 } else { a - b };
+        let difference = above(value, lower).max(above(upper, value));
         if difference > judgement.difference {
             judgement = Judgement { difference, state, ..judgement };
         }

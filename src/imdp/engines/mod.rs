@@ -17,16 +17,17 @@ mod process_group;
 mod question;
 mod raised;
 mod storm;
+mod storm_question;
 mod strategy;
 mod values;
 
 pub use cross_check::{CrossCheckOptions, cross_check};
 pub use engine::Engine;
 pub use failure::{EngineFailure, EngineMissing};
-pub use finding::{Agreement, Finding, StrategyFinding};
+pub use finding::{Agreement, CrossCheckFile, Finding, StrategyFinding};
 pub use prism::Prism;
 pub use process::RunLimits;
-pub use question::{EngineAnswer, EngineQuestion, Reply, Subject};
+pub use question::{EngineAnswer, EngineQuestion, Handed, QuestionKind, Reply, Subject};
 pub use raised::raised;
 pub use storm::Storm;
 pub use strategy::Strategy;
@@ -46,9 +47,18 @@ fn scratch() -> io::Result<StagedDirectory> {
     Ok(directory)
 }
 
-/// Refuses to begin a file that will not fit.
-fn require_space(file: &Path, bytes: u64) -> io::Result<()> {
-    let free = fs4::available_space(file.parent().unwrap_or(file))?;
+/// Gives a file a second name.
+fn link(file: &Path, name: &Path) -> io::Result<()> {
+    let file = std::path::absolute(file)?;
+    #[cfg(unix)]
+    return std::os::unix::fs::symlink(file, name);
+    #[cfg(not(unix))]
+    return std::fs::copy(file, name).map(drop);
+}
+
+/// Refuses to begin a file that will not fit into a directory.
+fn require_space(directory: &Path, bytes: u64) -> io::Result<()> {
+    let free = fs4::available_space(directory)?;
     if bytes <= free {
         return Ok(());
     }

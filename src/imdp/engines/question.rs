@@ -2,21 +2,33 @@
 
 use super::{EngineFailure, Strategy};
 use crate::compare::CompareError;
+use crate::formats::Format;
 use crate::model::{IntervalMdp, ModelKind};
-use crate::property::Question as Asked;
-use crate::property::{Objective, Optimum, Property, Query, QueryKind, Resolution};
-use std::path::PathBuf;
+use crate::property::{Compound, Objective, Optimum, Property, Query, QueryKind, Question, Resolution};
+use std::path::Path;
 use std::time::Duration;
 
 /// A value that an engine is asked for.
 #[derive(Clone, Debug)]
 pub struct EngineQuestion {
-    /// The property as it was given.
-    pub property: Property,
-    /// The same without its threshold: what the engine computes.
-    pub value: Property,
-    /// The value in terms of sets of states.
-    pub query: Query,
+    /// The question as it was given.
+    pub property: String,
+    /// What the engine computes.
+    pub kind: QuestionKind,
+}
+
+/// What an engine computes.
+#[derive(Clone, Debug)]
+pub enum QuestionKind {
+    /// The probability of one event.
+    Event {
+        /// The property without its threshold.
+        value: Box<Property>,
+        /// The value in terms of sets of states.
+        query: Query,
+    },
+    /// A number or a formula of several operators, or with rewards.
+    Expression(Compound),
 }
 
 /// A model as engines get it.
@@ -26,8 +38,20 @@ pub struct Subject<'a> {
     pub model: &'a IntervalMdp,
     /// The model as engines get it: with lower bounds of 0, which they refuse, raised; `None` if there are none.
     pub raised: Option<&'a IntervalMdp>,
-    /// Its explicit files, `.tra`, `.sta` and `.lab`, if they can be read as they are.
-    pub files: Option<&'a PathBuf>,
+    /// What is handed to engines.
+    pub handed: Handed<'a>,
+}
+
+/// What is handed to an engine.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum Handed<'a> {
+    /// The model, written in a format of the engine.
+    #[default]
+    Copy,
+    /// PRISM's explicit files, this one and those beside it, to the engine that reads them; a copy to others.
+    Explicit(&'a Path),
+    /// This file and no other, as it is.
+    AsIs(&'a Path, Format),
 }
 
 /// What an engine computed.
@@ -66,15 +90,39 @@ impl EngineQuestion {
             (ModelKind::Idtmc, Resolution::Pminmin | Resolution::Pmaxmin) => Optimum::Min,
             (ModelKind::Idtmc, Resolution::Pmaxmax | Resolution::Pminmax) => Optimum::Max,
         };
-        let value = Property { name: None, question: Asked::Value(optimum), path: objective.path };
-        Ok(Self { property: property.clone(), value, query })
+        let value = Property { name: None, question: Question::Value(optimum), path: objective.path };
+        Ok(Self {
+            property: property.to_string(),
+            kind: QuestionKind::Event { value: Box::new(value), query },
+        })
     }
 
-    /// The number of steps, if bounded.
+    /// What an expression asks.
+    pub fn expression(compound: &Compound) -> Self {
+        Self { property: compound.to_string(), kind: QuestionKind::Expression(compound.clone()) }
+    }
+
+    /// The number of steps, if there is one event and it is bounded.
     pub fn steps(&self) -> Option<u64> {
-        match self.query.kind {
-            QueryKind::Until { steps, .. } => steps,
+        match &self.query()?.kind {
+            QueryKind::Until { steps, .. } => *steps,
             QueryKind::Next { .. } => Some(1),
+        }
+    }
+
+    /// The value in terms of sets of states, if it is about one event.
+    pub fn query(&self) -> Option<&Query> {
+        match &self.kind {
+            QuestionKind::Event { query, .. } => Some(query),
+            QuestionKind::Expression(_) => None,
+        }
+    }
+
+    /// The question in PRISM's language, without a name.
+    pub fn text(&self) -> String {
+        match &self.kind {
+            QuestionKind::Event { value, .. } => value.to_string(),
+            QuestionKind::Expression(compound) => compound.resolved(),
         }
     }
 }

@@ -2,12 +2,15 @@
 
 use super::find::find;
 use super::process::{Ended, RunLimits, run};
+use super::storm_question::StormQuestion;
 use super::values::decode_values;
-use super::{Engine, EngineAnswer, EngineFailure, EngineMissing, EngineQuestion, Reply, Strategy, Subject};
+use super::{
+    Engine, EngineAnswer, EngineFailure, EngineMissing, EngineQuestion, Handed, Reply, Strategy, Subject,
+};
 use crate::files::StagedDirectory;
+use crate::formats::Format;
 use crate::formats::umb::{Compression, UmbWriter};
 use crate::model::{ActionNames, IntervalMdp, Labels, ModelKind, Parts, StateSet, StateVariables};
-use crate::property::{Query, QueryKind};
 use serde::Deserialize;
 use serde_json::json;
 use std::fs::{self, File};
@@ -22,10 +25,9 @@ const SCRIPT: &str = include_str!("../templates/storm.py");
 const PRECISION: f64 = 1e-13;
 /// How long Python may take to tell whether it has stormpy.
 const PATIENCE: Duration = Duration::from_secs(60);
-const REMEDY: &str =
-    "Install it: python3 -m venv .venv && .venv/bin/pip install stormpy; then --python .venv/bin/python.";
+const REMEDY: &str = "Install it: python3 -m venv .venv && .venv/bin/pip install stormpy; the Python is then .venv/bin/python.";
 const EXPECTED: &str =
-    "a Python that can import stormpy 2, by --python PATH, $DYNABS_PYTHON, $VIRTUAL_ENV or python3";
+    "a Python that can import stormpy 2: one that is given, $DYNABS_PYTHON, that of $VIRTUAL_ENV or python3";
 
 /// Storm, as a Python that can import stormpy.
 #[derive(Clone, Debug)]
@@ -82,10 +84,10 @@ impl Storm {
     fn ask_in_one_run(
         &self,
         subject: &Subject<'_>,
-        questions: &[EngineQuestion],
+        questions: &[StormQuestion],
         limits: &RunLimits<'_>,
     ) -> Vec<Result<EngineAnswer, EngineFailure>> {
-        let directory = match stage(subject.model, questions) {
+        let directory = match stage(subject, questions) {
             Ok(directory) => directory,
             Err(failure) => return vec![Err(failure)],
         };
@@ -123,77 +125,76 @@ impl Engine for Storm {
     }
 
     fn ask(&self, subject: &Subject<'_>, questions: &[EngineQuestion], limits: &RunLimits<'_>) -> Vec<Reply> {
+        let (mut suitable, mut refused) = (vec![], vec![]);
+        for (number, question) in questions.iter().enumerate() {
+            match StormQuestion::new(number, question, subject.handed) {
+                Ok(question) => suitable.push(question),
+                Err(reason) => refused.push((number, Err(EngineFailure::Unsuitable { reason }))),
+            }
+        }
         let mut outcomes = Vec::with_capacity(questions.len());
         // A question that ends a run takes no other with it.
-        while outcomes.len() < questions.len() {
-            outcomes.extend(self.ask_in_one_run(subject, &questions[outcomes.len()..], limits));
+        while outcomes.len() < suitable.len() {
+            outcomes.extend(self.ask_in_one_run(subject, &suitable[outcomes.len()..], limits));
         }
-        let reply = |outcome| Reply { version: Some(self.version.clone()), outcome };
+        let mut outcomes: Vec<_> =
+            suitable.iter().map(|question| question.number).zip(outcomes).chain(refused).collect();
+        outcomes.sort_by_key(|(number, _)| *number);
+        let reply = |(_, outcome)| Reply { version: Some(self.version.clone()), outcome };
         outcomes.into_iter().map(reply).collect()
     }
 }
 
 /// A directory with the script, the model and the questions.
-fn stage(model: &IntervalMdp, questions: &[EngineQuestion]) -> Result<StagedDirectory, EngineFailure> {
+fn stage(subject: &Subject<'_>, questions: &[StormQuestion]) -> Result<StagedDirectory, EngineFailure> {
     let failed = |path: &Path, error| EngineFailure::Files { path: path.to_path_buf(), error };
     let directory = super::scratch().map_err(|error| failed(&std::env::temp_dir(), error))?;
     let at = |name: &str| directory.path().join(name);
-    let asked: Vec<_> = questions.iter().enumerate().map(|(i, q)| formula(i, &q.query)).collect();
+    let file = match subject.handed {
+        Handed::AsIs(path, format @ (Format::Umb | Format::Drn)) => {
+            let name = format!("model.{}", format.extension());
+            super::link(path, &at(&name)).map_err(|error| failed(path, error))?;
+            name
+        }
+        Handed::AsIs(_, format) => {
+            let reason = format!("found a file in the format {format}; expected .drn or .umb");
+            return Err(EngineFailure::Unsuitable { reason });
+        }
+        Handed::Copy | Handed::Explicit(_) => {
+            write_model(subject.model, questions, &at("model.umb"))?;
+            "model.umb".to_owned()
+        }
+    };
+    let has_policy = subject.model.kind() == ModelKind::Imdp;
     let request = json!({
-        "model": "model.umb",
+        "model": file,
         "precision": format!("{PRECISION:e}"),
-        "questions": asked.iter().zip(questions).map(|((formula, _), question)| json!({
-            "formula": formula,
-            "nature": if question.query.resolution.nature_maximises() { "max" } else { "min" },
-            // There is none with a bound on the steps.
-            "strategy": question.steps().is_none() && model.kind() == ModelKind::Imdp,
+        "questions": questions.iter().map(|question| json!({
+            "formula": question.formula,
+            "nature": if question.nature_maximises { "max" } else { "min" },
+            "strategy": question.is_unbounded && has_policy,
         })).collect::<Vec<_>>(),
     });
     for (name, text) in [("storm.py", SCRIPT), ("questions.json", &request.to_string())] {
         fs::write(at(name), text).map_err(|error| failed(&at(name), error))?;
     }
-    let unsuitable = |reason| EngineFailure::Unsuitable { reason };
-    let labels = asked.into_iter().flat_map(|(_, labels)| labels);
-    let labelled = with_labels(model, labels).map_err(unsuitable)?;
-    // It raises lower bounds of 0 by itself.
-    let writer = UmbWriter::new(&labelled).map_err(|error| unsuitable(error.to_string()))?;
-    let umb = at("model.umb");
-    let write = || {
-        super::require_space(&umb, writer.bytes())?;
-        let mut out = BufWriter::with_capacity(1 << 18, File::create(&umb)?);
-        writer.write(&mut out, Compression::None, &())?;
-        out.flush()
-    };
-    write().map_err(|error| failed(&umb, error))?;
     Ok(directory)
 }
 
-/// The event of a query in Storm's language, and the labels in it.
-///
-/// Sets of states become labels of their own: Storm's format has no variables, and its `G` takes the wrong side
-/// of nature, so that what it is asked is the query and not the text of the property.
-fn formula(number: usize, query: &Query) -> (String, Vec<(String, StateSet)>) {
-    let mut labels = vec![];
-    let mut name = |what: &str, set: &StateSet| {
-        if set.is_clear() {
-            // Labels without states are unknown to Storm.
-            return "false".to_owned();
-        } else if set.is_full() {
-            return "true".to_owned();
-        }
-        let name = format!("{what}{number}");
-        labels.push((name.clone(), set.clone()));
-        format!("\"{name}\"")
+/// Writes the model with the labels of the questions.
+fn write_model(model: &IntervalMdp, questions: &[StormQuestion], umb: &Path) -> Result<(), EngineFailure> {
+    let unsuitable = |reason| EngineFailure::Unsuitable { reason };
+    let labels = questions.iter().flat_map(|question| question.labels.iter().cloned());
+    let labelled = with_labels(model, labels).map_err(unsuitable)?;
+    // It raises lower bounds of 0 by itself.
+    let writer = UmbWriter::new(&labelled).map_err(|error| unsuitable(error.to_string()))?;
+    let write = || {
+        super::require_space(umb.parent().unwrap_or(umb), writer.bytes())?;
+        let mut out = BufWriter::with_capacity(1 << 18, File::create(umb)?);
+        writer.write(&mut out, Compression::None, &())?;
+        out.flush()
     };
-    let policy = if query.resolution.policy_maximises() { "max" } else { "min" };
-    let path = match &query.kind {
-        QueryKind::Next { goal } => format!("X {}", name("goal", goal)),
-        QueryKind::Until { safe, goal, steps } => {
-            let bound = steps.map(|steps| format!("<={steps}")).unwrap_or_default();
-            format!("{} U{bound} {}", name("safe", safe), name("goal", goal))
-        }
-    };
-    (format!("P{policy}=? [ {path} ]"), labels)
+    write().map_err(|error| EngineFailure::Files { path: umb.to_path_buf(), error })
 }
 
 /// The model with these labels and nothing that only people need.
@@ -224,7 +225,7 @@ struct Report {
 
 fn read_answer(
     subject: &Subject<'_>,
-    question: &EngineQuestion,
+    question: &StormQuestion,
     [report, values, strategy]: &[PathBuf; 3],
     peak_mib: Option<u64>,
 ) -> Result<EngineAnswer, EngineFailure> {
@@ -237,7 +238,7 @@ fn read_answer(
         return Err(EngineFailure::Refused { said });
     }
     let mut values = decode_values(&read(values)?, subject.model.num_states())?;
-    if question.query.complement {
+    if question.complement {
         values.iter_mut().for_each(|value| *value = 1.0 - *value);
     }
     let strategy = match strategy.exists() {

@@ -4,6 +4,7 @@ use super::EngineFailure;
 use super::values::shortened;
 use crate::compare::CompareError;
 use crate::compare::backup::Backup;
+use crate::formats::PolicyEntry;
 use crate::model::{IntervalMdp, StateId, restrict};
 use crate::property::{Query, QueryKind, Resolution};
 use crate::solver::{Event, SolverOptions, solve};
@@ -22,25 +23,21 @@ impl Strategy {
     /// [`EngineFailure::Strategy`] if a line is not of this form or names a choice that its state does not have.
     pub fn parse(text: &str, model: &IntervalMdp) -> Result<Self, EngineFailure> {
         let mut choices = HashMap::new();
-        for (line, text) in (1..).zip(text.lines()).filter(|(_, text)| !text.trim().is_empty()) {
-            let refuse = |expected: &str| EngineFailure::Strategy {
+        for (line, entry) in PolicyEntry::read(text) {
+            let refuse = |found: &str, expected: &str| EngineFailure::Strategy {
                 line,
-                found: shortened(text),
+                found: shortened(found),
                 expected: expected.to_owned(),
             };
-            let entry = || {
-                let (key, choice) = text.trim().split_once('=')?;
-                let (state, step) = match key.split_once(',') {
-                    None => (key, None),
-                    Some((state, step)) => (state, Some(step.parse::<u64>().ok()?)),
-                };
-                Some((state.parse::<StateId>().ok()?, step, choice.parse::<u32>().ok()?))
+            let entry = entry.map_err(|error| refuse(&error.found, error.expected))?;
+            let (state, choice) = (entry.state, entry.action.parse::<u32>().ok());
+            let is_known = state.index() < model.num_states();
+            let choice = choice.filter(|&choice| is_known && choice < num_choices(model, state));
+            let Some(choice) = choice else {
+                let expected = "a state of the model and the index of one of its choices";
+                return Err(refuse(&entry.to_string(), expected));
             };
-            let (state, step, choice) = entry().ok_or_else(|| refuse("state=choice or state,step=choice"))?;
-            if state.index() >= model.num_states() || choice >= num_choices(model, state) {
-                return Err(refuse("a state of the model and the index of one of its choices"));
-            }
-            choices.insert((state, step), choice);
+            choices.insert((state, entry.step), choice);
         }
         Ok(Self { choices })
     }

@@ -76,7 +76,7 @@ pub enum EvaluationError {
     Proof(#[from] crate::verify::Rejection),
     /// A formula inside of another is not decided in some state.
     #[error(
-        "a formula inside of the path formula is not decided in state {state}; a smaller --epsilon may help"
+        "a formula inside of the path formula is not decided in state {state}; bounds that are closer together may help"
     )]
     Undecided {
         /// The state.

@@ -28,7 +28,7 @@ pub use truth::Truth;
 use crate::certificate::{Claim, Derivation, Evidence, FileDigest};
 use crate::model::{IntervalMdp, StateId};
 use crate::property::{Compound, Nature, Verdict};
-use crate::solver::{Inexact, Policy, SolverOptions, Status};
+use crate::solver::{Inexact, Policy, SolverOptions, Status, ValueBounds};
 use expression::Evaluator;
 
 /// What an expression comes to in every state.
@@ -114,6 +114,21 @@ impl Evaluation {
             Values::Numbers(numbers) => Some(numbers.bounds(state.index())),
             Values::Truth(_) => None,
         }
+    }
+
+    /// Bounds in every state; of a formula, 1 where it holds and 0 where it does not.
+    pub fn value_bounds(&self, states: usize) -> ValueBounds {
+        let of_verdict = |verdict| match verdict {
+            Verdict::Holds => (1.0, 1.0),
+            Verdict::Fails => (0.0, 0.0),
+            Verdict::Unknown => (0.0, 1.0),
+        };
+        let of_state = |state| match &self.values {
+            Values::Numbers(numbers) => numbers.bounds(state),
+            Values::Truth(truth) => of_verdict(truth.verdict(state)),
+        };
+        let (lower, upper) = (0..states).map(of_state).unzip();
+        ValueBounds { lower, upper }
     }
 
     /// Whether the formula holds in a state; none if it is a number.

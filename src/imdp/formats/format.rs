@@ -31,17 +31,72 @@ impl Format {
     /// The formats of other programs, which keep part of it.
     pub const OTHERS: [Self; 3] = [Self::Combined, Self::Bmdp, Self::Netcdf];
 
+    /// What there is to know about a format: the one table of it.
+    fn facts(self) -> Facts {
+        let (name, extensions, about): (_, &[_], _) = match self {
+            Self::Prism => ("prism", &["tra", "sta", "lab"], "PRISM's explicit files: .tra, .sta and .lab"),
+            Self::Drn => ("drn", &["drn"], "Storm's explicit text format, .drn"),
+            Self::Umb => {
+                ("umb", &["umb"], "The unified Markov binary format that PRISM and Storm read, .umb")
+            }
+            Self::Native => ("dynabs", &["dynabs"], "The compact format of this program, .dynabs"),
+            Self::Combined => {
+                ("pexp", &["pexp"], "All of PRISM's explicit files in one, .pexp; it is only read")
+            }
+            Self::Bmdp => (
+                "bmdp",
+                &["txt"],
+                "The text format of bmdp-tool, .txt: transitions and the states to be reached only",
+            ),
+            Self::Netcdf => (
+                "netcdf",
+                &["nc"],
+                "The NetCDF format of IntervalMDP.jl, .nc: transitions only; .json beside has what is asked",
+            ),
+        };
+        Facts { name, extensions, about }
+    }
+
+    /// All formats that are read.
+    pub fn all() -> impl Iterator<Item = Self> + Clone {
+        Self::ALL.into_iter().chain(Self::OTHERS)
+    }
+
+    /// All formats that are written.
+    pub fn written() -> impl Iterator<Item = Self> + Clone {
+        Self::all().filter(|&format| format != Self::Combined)
+    }
+
+    /// The format of this name.
+    pub fn of_name(name: &str) -> Option<Self> {
+        Self::all().find(|format| format.name() == name)
+    }
+
+    /// Its name, by which it can be asked for.
+    pub fn name(self) -> &'static str {
+        self.facts().name
+    }
+
+    /// What it is, in a few words.
+    pub fn about(self) -> &'static str {
+        self.facts().about
+    }
+
+    /// The extensions of the files of a model, that of the transitions first.
+    pub fn extensions(self) -> &'static [&'static str] {
+        self.facts().extensions
+    }
+
     /// The extension of its files; PRISM's transitions stand for all three.
     pub fn extension(self) -> &'static str {
-        match self {
-            Self::Prism => "tra",
-            Self::Drn => "drn",
-            Self::Umb => "umb",
-            Self::Native => "dynabs",
-            Self::Combined => "pexp",
-            Self::Bmdp => "txt",
-            Self::Netcdf => "nc",
-        }
+        self.extensions()[0]
+    }
+
+    /// The extensions of the files of formats, for messages: `.tra, .drn, … or .nc`.
+    pub fn endings(formats: impl Iterator<Item = Self>) -> String {
+        let mut endings: Vec<_> = formats.map(|format| format!(".{}", format.extension())).collect();
+        let last = endings.pop().unwrap_or_default();
+        format!("{} or {last}", endings.join(", "))
     }
 
     /// The format that the extension of a path tells; `.gz` and `.xz` behind it do not count.
@@ -53,7 +108,7 @@ impl Format {
         }
         let unpacked = without_packing(path);
         let extension = unpacked.extension()?.to_str()?;
-        Self::ALL.into_iter().chain(Self::OTHERS).find(|format| format.extension() == extension)
+        Self::all().find(|format| format.extension() == extension)
     }
 
     /// The files that a model is read from, the one with the transitions first.
@@ -103,14 +158,13 @@ impl Format {
 
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Prism => "prism",
-            Self::Drn => "drn",
-            Self::Umb => "umb",
-            Self::Native => "dynabs",
-            Self::Combined => "pexp",
-            Self::Bmdp => "bmdp",
-            Self::Netcdf => "netcdf",
-        })
+        f.write_str(self.name())
     }
+}
+
+/// What there is to know about a format.
+struct Facts {
+    name: &'static str,
+    extensions: &'static [&'static str],
+    about: &'static str,
 }

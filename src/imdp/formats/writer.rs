@@ -15,7 +15,8 @@ use std::io::{self, Write};
 #[derive(Debug)]
 pub struct ModelWriter<'a> {
     model: &'a IntervalMdp,
-    format: FormatWriter<'a>,
+    format: Format,
+    writer: FormatWriter<'a>,
 }
 
 #[derive(Debug)]
@@ -38,7 +39,7 @@ pub enum WriteError {
     #[error(transparent)]
     Netcdf(#[from] NetcdfError),
     /// The format is only read.
-    #[error("{format} is only read; expected prism, drn, umb, dynabs, bmdp or netcdf")]
+    #[error("found the format {format}, which is only read; expected one of {}", written())]
     ReadOnly {
         /// The format.
         format: Format,
@@ -80,6 +81,11 @@ pub enum WriteError {
     },
 }
 
+/// The names of the formats that are written.
+fn written() -> String {
+    Format::written().map(Format::name).collect::<Vec<_>>().join(", ")
+}
+
 /// Refuses bounds that a format would have to replace by others.
 fn check_bounds(model: &IntervalMdp, format: Format) -> Result<(), WriteError> {
     const DOUBLES: &str = "doubles, each for its shortest decimal";
@@ -118,7 +124,7 @@ impl<'a> ModelWriter<'a> {
             let bytes = ENTRY_BYTES * model.rows().num_entries() as u64;
             require_memory(format!("writing the rows as {}", format.extension()), bytes)?;
         }
-        let format = match format {
+        let writer = match format {
             Format::Native => FormatWriter::Native,
             Format::Drn => FormatWriter::Drn(DrnWriter::new(model)?),
             Format::Umb => FormatWriter::Umb(Box::new(UmbWriter::new(model)?), compression),
@@ -138,24 +144,17 @@ impl<'a> ModelWriter<'a> {
                 FormatWriter::Prism(TraWriter::new(model))
             }
         };
-        Ok(Self { model, format })
+        Ok(Self { model, format, writer })
     }
 
     /// The extensions of the files, the largest one first.
     pub fn extensions(&self) -> &'static [&'static str] {
-        match self.format {
-            FormatWriter::Native => &["dynabs"],
-            FormatWriter::Prism(_) => &["tra", "sta", "lab"],
-            FormatWriter::Drn(_) => &["drn"],
-            FormatWriter::Umb(..) => &["umb"],
-            FormatWriter::Bmdp(_) => &["txt"],
-            FormatWriter::Netcdf(_) => &["nc"],
-        }
+        self.format.extensions()
     }
 
     /// The files of what is earned, which PRISM has beside the others.
     pub fn reward_files(&self) -> Vec<RewardFile<'a>> {
-        match self.format {
+        match self.writer {
             FormatWriter::Prism(_) => RewardFile::all(self.model),
             _ => vec![],
         }
@@ -163,7 +162,7 @@ impl<'a> ModelWriter<'a> {
 
     /// The reward structures that the format cannot hold, by name: they are not written.
     pub fn rewards_left_out(&self) -> Vec<&'a str> {
-        let is_left_out = |structure: &&RewardStructure| match self.format {
+        let is_left_out = |structure: &&RewardStructure| match self.writer {
             FormatWriter::Native | FormatWriter::Prism(_) | FormatWriter::Umb(..) => false,
             FormatWriter::Drn(_) => !DrnWriter::holds(structure),
             FormatWriter::Bmdp(_) | FormatWriter::Netcdf(_) => true,
@@ -173,7 +172,7 @@ impl<'a> ModelWriter<'a> {
 
     /// The size of the largest file in bytes, before compression; 0 if it is small anyway.
     pub fn bytes(&self) -> u64 {
-        match &self.format {
+        match &self.writer {
             FormatWriter::Native | FormatWriter::Bmdp(_) | FormatWriter::Netcdf(_) => 0,
             FormatWriter::Prism(writer) => writer.bytes(),
             FormatWriter::Drn(writer) => writer.bytes(),
@@ -191,7 +190,7 @@ impl<'a> ModelWriter<'a> {
         out: &mut (impl Write + Send),
         progress: &dyn Progress,
     ) -> io::Result<()> {
-        match (&self.format, extension) {
+        match (&self.writer, extension) {
             (FormatWriter::Native, _) => native::write(self.model, out),
             (FormatWriter::Prism(_), "sta") => write_sta(self.model, out),
             (FormatWriter::Prism(_), "lab") => write_lab(self.model, out),

@@ -1,8 +1,8 @@
 //! Integer expressions, evaluated for all states at once.
 
-use super::evaluate::variable;
+use super::closest_name::closest_name;
 use super::{IntegerExpression, PropertyError};
-use crate::model::{IntervalMdp, VariableValues};
+use crate::model::{IntervalMdp, StateVariable, VariableValues};
 
 /// The value of an integer expression, by state.
 pub(super) enum Column<'a> {
@@ -52,6 +52,18 @@ pub(super) fn evaluate_integer<'a>(
     };
     let (left, right) = (evaluate_integer(left, model)?, evaluate_integer(right, model)?);
     combine(expression, operation, &left, &right, model)
+}
+
+/// The variable of this name.
+pub(super) fn variable<'a>(name: &str, model: &'a IntervalMdp) -> Result<&'a StateVariable, PropertyError> {
+    model.variables().get(name).ok_or_else(|| {
+        let known: Vec<_> = model.variables().iter().map(|variable| variable.name.clone()).collect();
+        let closest = match model.labels().get(name) {
+            Some(_) => Some(format!("\"{name}\"")),
+            None => closest_name(name, &known).map(str::to_owned),
+        };
+        PropertyError::UnknownVariable { name: name.to_owned(), closest, known }
+    })
 }
 
 /// Whether a name is that of the number of a state: `x`, as for PRISM, if the states have no variables.

@@ -1,8 +1,8 @@
 //! The states in which a formula holds.
 
-use super::columns::{Column, evaluate_integer, numbers_states};
+use super::columns::{Column, evaluate_integer, numbers_states, variable};
 use super::{IntegerExpression, PropertyError, Relation, StateFormula, closest_name::closest_name};
-use crate::model::{IntervalMdp, StateId, StateSet, StateVariable, VariableValues};
+use crate::model::{IntervalMdp, StateId, StateSet, VariableValues};
 
 impl StateFormula {
     /// The states of `model` in which the formula holds.
@@ -82,18 +82,6 @@ fn label(name: &str, model: &IntervalMdp) -> Result<StateSet, PropertyError> {
         None => closest_name(name, &known).map(|label| format!("\"{label}\"")),
     };
     Err(PropertyError::UnknownLabel { name: name.to_owned(), closest, known })
-}
-
-/// The variable of this name.
-pub(super) fn variable<'a>(name: &str, model: &'a IntervalMdp) -> Result<&'a StateVariable, PropertyError> {
-    model.variables().get(name).ok_or_else(|| {
-        let known: Vec<_> = model.variables().iter().map(|variable| variable.name.clone()).collect();
-        let closest = match model.labels().get(name) {
-            Some(_) => Some(format!("\"{name}\"")),
-            None => closest_name(name, &known).map(str::to_owned),
-        };
-        PropertyError::UnknownVariable { name: name.to_owned(), closest, known }
-    })
 }
 
 fn compare(

@@ -55,9 +55,7 @@ pub enum ParseErrorKind {
         found: String,
     },
     /// A constant is declared, but has no value.
-    #[error(
-        "the constant {name} has no value; give it one, as in --const {name}=VALUE, or in the file: const {name} = VALUE;"
-    )]
+    #[error("the constant {name} has no value; define it in the file, as in const {name} = VALUE;")]
     Undefined {
         /// The constant.
         name: String,

@@ -65,6 +65,36 @@ pub enum Verdict {
     Unknown,
 }
 
+impl Verdict {
+    /// What a word means that [`Display`](fmt::Display) writes.
+    pub fn of_word(word: &str) -> Option<Self> {
+        [Self::Holds, Self::Fails, Self::Unknown].into_iter().find(|verdict| verdict.word() == word)
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            Self::Holds => "true",
+            Self::Fails => "false",
+            Self::Unknown => "undecided",
+        }
+    }
+
+    /// Whether it holds; none if that is not known.
+    pub fn decided(self) -> Option<bool> {
+        match self {
+            Self::Holds => Some(true),
+            Self::Fails => Some(false),
+            Self::Unknown => None,
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
+    }
+}
+
 impl Probability {
     /// Reads `0.95`, `.95`, `1` or `95e-2`.
     ///

@@ -13,7 +13,7 @@ pub(super) struct Header {
     pub(super) format: String,
     /// The property, in PRISM's syntax.
     pub(super) property: String,
-    /// The SHA-256 of the native model, in hexadecimal.
+    /// The SHA-256 of the native model, or of the problem where there is none, in hexadecimal.
     pub(super) model: String,
     pub(super) states: usize,
     pub(super) status: Status,

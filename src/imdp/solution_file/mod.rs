@@ -5,7 +5,7 @@
 //!
 //! # The file
 //!
-//! One line of JSON (the header) with the property, the SHA-256 of the native model, how the computation ended
+//! One line of JSON (the header) with the property, the SHA-256 of the native model (or of the problem), how the computation ended
 //! and how many of everything there are; then arrays of little-endian numbers without gaps, for `n` states, `m` changes of the
 //! policy and `h` earlier steps:
 //!
@@ -22,5 +22,5 @@ mod read;
 mod write;
 
 pub use header::SolutionFileError;
-pub use read::read;
+pub use read::{SolutionSubject, read};
 pub use write::write;

@@ -1,20 +1,27 @@
 //! Reading solutions.
 
 use super::header::{FORMAT, Header, SolutionFileError};
-use crate::model::{IntervalMdp, StateId};
-use crate::property::Property;
+use crate::model::StateId;
 use crate::solver::{NO_CHOICE, Policy, Solution, ValueBounds};
 
-/// Reads the solution of `property` on `model`, whose native file has this SHA-256.
+/// What a solution should be of.
+#[derive(Clone, Copy)]
+pub struct SolutionSubject<'a> {
+    /// The property, in PRISM's syntax.
+    pub property: &'a str,
+    /// The SHA-256 of the file that says what was solved.
+    pub sha256: &'a str,
+    /// The number of states.
+    pub states: usize,
+    /// Whether a state has a choice of this number.
+    pub is_choice: &'a dyn Fn(StateId, u32) -> bool,
+}
+
+/// Reads a solution.
 ///
 /// # Errors
 /// [`SolutionFileError`] if it is of something else, damaged, or says what cannot be.
-pub fn read(
-    bytes: &[u8],
-    property: &Property,
-    model: &IntervalMdp,
-    sha256: &str,
-) -> Result<Solution, SolutionFileError> {
+pub fn read(bytes: &[u8], subject: &SolutionSubject<'_>) -> Result<Solution, SolutionFileError> {
     let end = bytes.iter().position(|&byte| byte == b'\n').unwrap_or(bytes.len());
     let (line, rest) = bytes.split_at(end);
     let header: Header =
@@ -27,9 +34,9 @@ pub fn read(
         }
     };
     same("the format", &header.format, FORMAT)?;
-    same("the property", &header.property, &property.to_string())?;
-    same("the model", &header.model, sha256)?;
-    same("states:", &header.states.to_string(), &model.num_states().to_string())?;
+    same("the property", &header.property, subject.property)?;
+    same("the model", &header.model, subject.sha256)?;
+    same("states:", &header.states.to_string(), &subject.states.to_string())?;
     let mut numbers = Numbers { rest: rest.get(1..).unwrap_or_default() };
     numbers.require(&header)?;
     let values = ValueBounds { lower: numbers.values(header.states)?, upper: numbers.values(header.states)? };
@@ -41,7 +48,7 @@ pub fn read(
             expected: "a lower bound up to the upper one",
         });
     }
-    let policy = numbers.policy(model, &header)?;
+    let policy = numbers.policy(subject, &header)?;
     let history = (0..header.history).map(|_| numbers.values(header.states)).collect::<Result<_, _>>()?;
     let Header { status, iterations, .. } = header;
     Ok(Solution { values, status, iterations, policy: Some(policy), evidence: None, history })
@@ -89,7 +96,11 @@ impl Numbers<'_> {
         (0..states).map(value).collect()
     }
 
-    fn policy(&mut self, model: &IntervalMdp, header: &Header) -> Result<Policy, SolutionFileError> {
+    fn policy(
+        &mut self,
+        subject: &SolutionSubject<'_>,
+        header: &Header,
+    ) -> Result<Policy, SolutionFileError> {
         let wrong =
             |state, found: String, expected| Err(SolutionFileError::Number { state, found, expected });
         let counts: Vec<u32> = (0..header.states).map(|_| u32::from_le_bytes(self.next())).collect();
@@ -106,7 +117,7 @@ impl Numbers<'_> {
                 if left <= before || left > most {
                     return wrong(state, format!("{left} steps left"), "ascending numbers up to the horizon");
                 }
-                if model.choices().row_of_choice(StateId::from_index(state), choice).is_none() {
+                if !(subject.is_choice)(StateId::from_index(state), choice) {
                     return wrong(state, format!("choice {choice}"), "a choice of the state");
                 }
                 before = left;

@@ -2,23 +2,22 @@
 
 use super::header::{FORMAT, Header};
 use crate::model::StateId;
-use crate::property::Property;
 use crate::solver::{Policy, Solution};
 use std::io::{self, Write};
 
-/// Writes the solution of `property` on the native model with this SHA-256; equal solutions give equal bytes.
+/// Writes the solution of `property` on what the file with this SHA-256 says; equal solutions give equal bytes.
 ///
 /// # Errors
 /// Those of the writer, and [`io::ErrorKind::InvalidInput`] for a solution without a policy.
-pub fn write(property: &Property, model: &str, solution: &Solution, out: &mut impl Write) -> io::Result<()> {
+pub fn write(property: &str, sha256: &str, solution: &Solution, out: &mut impl Write) -> io::Result<()> {
     let policy = solution.policy.as_ref();
     let policy =
         policy.ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "no policy was computed"))?;
     let states = solution.values.lower.len();
     let header = Header {
         format: FORMAT.to_owned(),
-        property: property.to_string(),
-        model: model.to_owned(),
+        property: property.to_owned(),
+        model: sha256.to_owned(),
         states,
         status: solution.status,
         iterations: solution.iterations,

@@ -11,11 +11,9 @@
 use super::expectation::Bound;
 use super::guess::{LevelSets, levels};
 use super::options::{Control, Status};
-use super::query::Players;
-use super::range_optimum::RangeOptimum;
-use super::slow::Precise;
+use super::shared::Shared;
 use super::sweep::Sweep;
-use crate::model::{IntervalMdp, RowId, StateId, StateSet};
+use crate::model::{RowId, StateId};
 
 /// Raises of a refuted guess are multiplied by powers of 8 up to this one: 8⁸ is 1.7·10⁷.
 const LEAPS: i32 = 8;
@@ -25,27 +23,6 @@ const LEAST_BUDGET: u64 = 5_000_000;
 
 /// Whoever has not come to an end after so many sweeps never will.
 const LAST_SWEEP: u64 = 1 << 20;
-
-/// The bounds of the whole model, as far as they are known.
-pub(super) struct Shared<'a> {
-    pub model: &'a IntervalMdp,
-    pub players: Players,
-    pub lower: Vec<f64>,
-    pub upper: Vec<f64>,
-    pub lower_rows: RangeOptimum,
-    pub upper_rows: RangeOptimum,
-    /// A maximising policy: the choice by which each state's lower bound was last improved.
-    pub choices: Vec<u32>,
-    /// Whether anybody will ask for it.
-    pub wants_policy: bool,
-    /// Bounds that are no doubles; those in `lower` and `upper` are rounded to the safe side.
-    pub precise_lower: Precise,
-    pub precise_upper: Precise,
-    /// After so many sweeps it is time for linear equations.
-    pub patience: u64,
-    /// The rows of the component being solved.
-    pub own_rows: StateSet,
-}
 
 /// The part being solved.
 pub(super) struct Component<'s, 'a> {
@@ -181,7 +158,7 @@ impl<'s, 'a> Component<'s, 'a> {
             return true;
         }
         states.iter().zip(&old).for_each(|(&s, &u)| self.shared.upper[s.index()] = u);
-        let levels = levels(self);
+        let levels = levels(self.shared, &self.sweep);
         levels.raise(&mut iterate);
         let (mut sum, mut count) = (vec![0.0; states.len()], 0.0);
         for k in 1..=rounds {

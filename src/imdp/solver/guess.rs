@@ -1,9 +1,10 @@
 //! Upper bounds that have a chance to be inductive in end components.
 
-use super::component::{Component, Shared};
 use super::expectation::poured_mass;
 use super::graph::{Candidates, can_stay, end_components, stays};
 use super::query::Direction;
+use super::shared::Shared;
+use super::sweep::Sweep;
 use crate::model::{RowId, StateId};
 use std::collections::HashMap;
 
@@ -45,18 +46,17 @@ fn maximum(class: &[u32], candidate: &[f64]) -> f64 {
 /// The end components of the maximising side.
 ///
 /// Every minimising side is fixed to what is best for the current lower bounds.
-pub(super) fn levels(component: &Component<'_, '_>) -> LevelSets {
-    let shared = &*component.shared;
+pub(super) fn levels(shared: &Shared<'_>, sweep: &Sweep<'_>) -> LevelSets {
     let players = shared.players;
     if (players.policy, players.nature) == (Direction::Min, Direction::Min) {
         // Who minimises in an end component stays there for value 0: such states are known already.
         return LevelSets::default();
     }
-    let rows: Vec<RowId> = component.sweep.rows().collect();
+    let rows: Vec<RowId> = sweep.rows().collect();
     let supports: Option<Vec<Vec<bool>>> = (players.nature == Direction::Min)
         .then(|| rows.iter().map(|&id| minimal_support(shared, id)).collect());
     // Most rows can leave for a finished state: they are in no end component.
-    let inside = |s: StateId| component.sweep.states.binary_search(&s).is_ok();
+    let inside = |s: StateId| sweep.states.binary_search(&s).is_ok();
     let may_stay = |position: usize| {
         let row = shared.model.rows().row(rows[position]);
         match &supports {
@@ -78,10 +78,10 @@ pub(super) fn levels(component: &Component<'_, '_>) -> LevelSets {
             }
         }
     };
-    let choices = component.sweep.states.iter().map(choices_of).collect();
-    let part = Candidates { model: shared.model, states: &component.sweep.states, choices, supports, rows };
+    let choices = sweep.states.iter().map(choices_of).collect();
+    let part = Candidates { model: shared.model, states: &sweep.states, choices, supports, rows };
     let classes = end_components(&part);
-    let capped = capped_rows(component, &classes, &part.rows);
+    let capped = capped_rows((shared, sweep), &classes, &part.rows);
     LevelSets { classes, capped }
 }
 
@@ -91,11 +91,14 @@ pub(super) fn greedy_row(shared: &Shared<'_>, state: StateId) -> Option<RowId> {
     shared.model.choices().rows(state).find(|&row| shared.lower_rows.values()[row.index()] <= best)
 }
 
-fn capped_rows(component: &Component<'_, '_>, classes: &[Vec<u32>], rows: &[RowId]) -> Vec<(RowId, usize)> {
-    let shared = &*component.shared;
+fn capped_rows(
+    (shared, sweep): (&Shared<'_>, &Sweep<'_>),
+    classes: &[Vec<u32>],
+    rows: &[RowId],
+) -> Vec<(RowId, usize)> {
     let members = classes.iter().zip(0..).flat_map(|(class, index)| class.iter().map(move |&i| (i, index)));
     let label: HashMap<StateId, usize> =
-        members.map(|(i, index)| (component.sweep.states[i as usize], index)).collect();
+        members.map(|(i, index)| (sweep.states[i as usize], index)).collect();
     let class_of = |&id: &RowId| {
         let row = shared.model.rows().row(id);
         let mut tried = None;

@@ -41,6 +41,7 @@ mod prune;
 mod query;
 mod range_optimum;
 mod reward;
+mod shared;
 mod slow;
 mod solution;
 mod sweep;

@@ -5,7 +5,7 @@
 //! (`component`).
 
 use super::bounded::indicator;
-use super::component::{Component, Shared};
+use super::component::Component;
 use super::evidence::unlike;
 use super::expectation::Bound;
 use super::graph::{ChoiceTree, ranks, strong_components, zero_one};
@@ -13,6 +13,7 @@ use super::options::Control;
 use super::policy::{NO_CHOICE, first_choice};
 use super::query::{Direction, Players};
 use super::range_optimum::RangeOptimum;
+use super::shared::Shared;
 use super::slow::{Precise, to_rational};
 use super::sweep::Sweep;
 use super::{Policy, Solution, SolveError, SolverOptions, Status, ValueBounds};

@@ -1,7 +1,7 @@
 //! The tables of a task's memory, for C.
 
-use super::c_source::{double, list, rows};
-use crate::controller::InputController;
+use super::c_text::{double, filled, list, rows};
+use crate::controller::Controller;
 use crate::partition::CellId;
 use crate::task::{HalfSpace, Standing};
 
@@ -28,7 +28,7 @@ pub(super) struct MemorySource {
 
 impl MemorySource {
     /// The tables of a controller whose task is an automaton.
-    pub(super) fn new(controller: &InputController) -> Option<Self> {
+    pub(super) fn new(controller: &Controller) -> Option<Self> {
         let task = controller.task();
         let letters = task.letters()?;
         let memories = task.memories();
@@ -40,19 +40,10 @@ impl MemorySource {
         let regions = controller.memory.letters().regions();
         let shapes: Vec<&Vec<HalfSpace>> = regions.iter().flatten().collect();
         let half_spaces: Vec<&HalfSpace> = shapes.iter().copied().flatten().collect();
-        // C has no empty arrays.
-        let padded = |mut numbers: Vec<f64>| {
-            if numbers.is_empty() {
-                numbers.resize(controller.state_dimension(), 0.0);
-            }
-            numbers
-        };
-        let normals = half_spaces.iter().flat_map(|half_space| half_space.normal.iter().copied()).collect();
-        let mut offsets: Vec<f64> = half_spaces.iter().map(|half_space| half_space.offset).collect();
-        let mut strict: Vec<u8> = half_spaces.iter().map(|half_space| half_space.strict.into()).collect();
-        if half_spaces.is_empty() {
-            (offsets, strict) = (vec![0.0], vec![0]);
-        }
+        let none = vec![0.0; controller.state_dimension()];
+        let normals = half_spaces.iter().map(|half_space| half_space.normal.as_slice()).collect();
+        let offsets: Vec<f64> = half_spaces.iter().map(|half_space| half_space.offset).collect();
+        let strict: Vec<u8> = half_spaces.iter().map(|half_space| half_space.strict.into()).collect();
         Some(Self {
             memories,
             done: memories + 1,
@@ -68,9 +59,9 @@ impl MemorySource {
             half_spaces: half_spaces.len().max(1),
             first_shape: list(starts(regions.iter().map(Vec::len))),
             first_half_space: list(starts(shapes.iter().map(|shape| shape.len()))),
-            normal: rows(&padded(normals), controller.state_dimension()),
-            offset: list(offsets.into_iter().map(|x| double(&x))),
-            strict: list(strict.into_iter()),
+            normal: rows(&filled(normals, &none[..]).concat(), controller.state_dimension()),
+            offset: list(filled(offsets, 0.0).iter().map(double)),
+            strict: list(filled(strict, 0).into_iter()),
         })
     }
 }

@@ -1,23 +1,20 @@
 //! The controller as self-describing JSON.
 
 use crate::controller::Controller;
+use crate::controller::law::Law;
 use crate::partition::{CellId, CellKind};
 use crate::problem::Problem;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-/// Writes the controller with everything needed to apply it, and what is promised about it.
+/// Writes the controller of a problem whose actions are targets with everything needed to apply it, and what is promised
+/// about it.
 ///
 /// # Errors
 /// What writing gives.
 pub fn write_json(controller: &Controller, problem: &Problem, mut out: impl Write) -> io::Result<()> {
-    let n = controller.state_dimension();
     let system = problem.step_system();
-    let law = &controller.law;
-    let of_kind = |kind| -> Vec<u32> {
-        problem.labels().iter().filter(|(_, k)| *k == kind).map(|(cell, _)| cell.0).collect()
-    };
     let value = json!({
         "format": "dynabs controller",
         "format_version": 1,
@@ -45,15 +42,7 @@ pub fn write_json(controller: &Controller, problem: &Problem, mut out: impl Writ
                 "at": matrix(&stabilizer.layers.about().to_f64().transpose())[0],
             })),
         },
-        "law": {
-            "about": "u = c + M d + N x: the inputs of `group_steps` steps, those of the first step first, that \
-                      steer from x to the target d",
-            "group_steps": controller.group_steps(),
-            "inputs_per_step": controller.step_inputs(),
-            "M": table(&law.target_gain, n),
-            "N": table(&law.state_gain, n),
-            "c": law.constant,
-        },
+        "law": law(controller),
         "grid": {
             "about": "cell (i1, i2, ...) is [faces[0][i1], faces[0][i1 + 1]) x ..., its number the sum of i_j * strides[j]",
             "faces": controller.lookup.faces(),
@@ -62,10 +51,10 @@ pub fn write_json(controller: &Controller, problem: &Problem, mut out: impl Writ
         "cells": {
             "about": "in goal cells the task is done; in unsafe cells and outside the grid it has failed; cells \
                       without an action are those that the policy does not list",
-            "goal": of_kind(CellKind::Goal),
-            "unsafe": of_kind(CellKind::Unsafe),
+            "goal": of_kind(controller, CellKind::Goal),
+            "unsafe": of_kind(controller, CellKind::Unsafe),
             "bounds_about": "the guaranteed probability of success from each cell at the start",
-            "bounds": (0..controller.num_cells()).map(|cell| controller.bound(CellId(cell))).collect::<Vec<_>>(),
+            "bounds": bounds(controller),
         },
         "policy": policy(controller),
         "targets": targets(controller),
@@ -74,17 +63,48 @@ pub fn write_json(controller: &Controller, problem: &Problem, mut out: impl Writ
     writeln!(out)
 }
 
+/// How an action and a state give inputs.
+pub(super) fn law(controller: &Controller) -> Value {
+    let (n, p) = (controller.state_dimension(), controller.step_inputs());
+    match &controller.law {
+        Law::Steering(law) => json!({
+            "about": "u = c + M d + N x: the inputs of `group_steps` steps, those of the first step first, that \
+                      steer from x to the target d",
+            "group_steps": controller.group_steps(),
+            "inputs_per_step": p,
+            "M": table(&law.target_gain, n),
+            "N": table(&law.state_gain, n),
+            "c": law.constant,
+        }),
+        Law::Centered(law) => json!({
+            "about": "u = nominal input of the action - K (x - center of the cell)",
+            "nominal": if p == 0 { vec![] } else { table(&law.nominal, p) },
+            "K": table(law.feedback.nearest_gain(), n),
+        }),
+    }
+}
+
+/// The numbers of all cells of a kind.
+pub(super) fn of_kind(controller: &Controller, kind: CellKind) -> Vec<u32> {
+    (0..controller.num_cells()).filter(|&cell| controller.kind(CellId(cell)) == kind).collect()
+}
+
+/// The guaranteed probability of success from each cell.
+pub(super) fn bounds(controller: &Controller) -> Vec<f64> {
+    (0..controller.num_cells()).map(|cell| controller.bound(CellId(cell))).collect()
+}
+
 /// The actions at the start and what changes from step to step.
 fn policy(controller: &Controller) -> Value {
     let cells = || (0..controller.num_cells()).map(CellId);
-    let first = |cell: CellId| controller.entries(cell).last().map(|entry| json!([cell.0, entry.target]));
+    let first = |cell: CellId| controller.entries(0, cell).last().map(|entry| json!([cell.0, entry.action]));
     let mut changes: BTreeMap<u64, Vec<Value>> = BTreeMap::new();
     if let Some(horizon) = controller.horizon() {
         for cell in cells() {
-            let entries = controller.entries(cell);
+            let entries = controller.entries(0, cell);
             for pair in entries.windows(2) {
                 let step = horizon + 1 - pair[1].steps_left;
-                changes.entry(step).or_default().push(json!([cell.0, pair[0].target]));
+                changes.entry(step).or_default().push(json!([cell.0, pair[0].action]));
             }
             // From here on nothing leads to the goal in time.
             if let Some(entry) = entries.first().filter(|entry| entry.steps_left > 1) {
@@ -105,9 +125,9 @@ fn policy(controller: &Controller) -> Value {
 
 /// The points of the targets that are used.
 fn targets(controller: &Controller) -> Value {
-    let entries = (0..controller.num_cells()).flat_map(|cell| controller.entries(CellId(cell)));
+    let entries = (0..controller.num_cells()).flat_map(|cell| controller.entries(0, CellId(cell)));
     let points: BTreeMap<u32, &[f64]> =
-        entries.map(|entry| (entry.target, controller.target_point(entry.target))).collect();
+        entries.map(|entry| (entry.action, controller.action(entry.action))).collect();
     points.into_iter().map(|(target, point)| (target.to_string(), json!(point))).collect()
 }
 

@@ -1,8 +1,9 @@
 //! The closed loop, many times: what happens, as against what was promised.
 
 mod input_check;
-mod input_runs;
+mod motion;
 mod noise;
+mod outcome;
 mod plant;
 mod runs;
 mod tally;
@@ -10,9 +11,10 @@ mod trajectory;
 mod witness;
 
 pub use input_check::{InputCheck, Violation};
-pub use input_runs::{InputSimulation, ParameterChoice};
+pub use motion::ParameterChoice;
 pub use noise::Noise;
+pub use outcome::{End, RunOutcome};
 pub use plant::Plant;
-pub use runs::{End, RunOutcome, Simulation};
+pub use runs::Simulation;
 pub use tally::{Frequency, Tally};
 pub use trajectory::{Trajectory, TrajectoryStep};

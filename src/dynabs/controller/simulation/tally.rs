@@ -1,7 +1,6 @@
 //! What many runs came to.
 
-use super::Violation;
-use super::runs::{End, RunOutcome};
+use super::{End, RunOutcome, Violation};
 use crate::guarantee::Safety;
 use crate::statistics::{lower_bound, upper_bound};
 use serde::Serialize;

@@ -1,6 +1,7 @@
 //! Runs written down step by step.
 
-use super::runs::{Moment, RunOutcome, Simulation};
+use super::RunOutcome;
+use super::runs::{Moment, Simulation};
 use crate::controller::Decision;
 
 /// One simulated run.

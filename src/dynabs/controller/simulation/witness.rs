@@ -23,6 +23,13 @@ pub(super) struct Seen {
     satisfied: bool,
 }
 
+impl Seen {
+    /// Whether nothing that comes changes whether the task is satisfied.
+    pub(super) fn is_decided(&self) -> bool {
+        self.lost || self.satisfied
+    }
+}
+
 impl<'a> Witness<'a> {
     pub(super) fn new(objective: &'a Objective, unsafe_: &[Region]) -> Self {
         let lookups = |regions: &[Region]| regions.iter().map(RegionLookup::new).collect();

@@ -36,6 +36,7 @@ mod header;
 mod read;
 mod rewards;
 mod state_line;
+mod stopped;
 mod valuations;
 mod write;
 

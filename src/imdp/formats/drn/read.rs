@@ -3,11 +3,12 @@
 use super::UNNAMED;
 use super::header::{Header, end_of_line, read_header};
 use super::state_line::{StateNotes, read_labels};
+use super::stopped::Stopped;
 use crate::formats::import::{
     Assembly, AssemblyError, Cursor, Expected, Fault, ImportError, Imported, Judgement, Lines, PendingRow,
     Position, RowFault, Source, Warning, describe, hash_row, open, read_any_interval, written_bounds,
 };
-use crate::model::{ActionNames, MemoryError, ModelKind, RowId, Rows, StateId};
+use crate::model::{ActionNames, ModelKind, RowId, Rows, StateId};
 use std::io::BufRead;
 use std::path::Path;
 
@@ -103,12 +104,12 @@ impl Body<'_> {
     fn line(&mut self, cursor: &mut Cursor<'_>) -> Result<(), ImportError> {
         let outcome = self.dispatch(cursor);
         outcome.map_err(|error| match error {
-            LineError::Fault(fault) => fault.in_file(self.path, 0),
-            LineError::Import(error) => error,
+            Stopped::Fault(fault) => fault.in_file(self.path, 0),
+            Stopped::Import(error) => error,
         })
     }
 
-    fn dispatch(&mut self, cursor: &mut Cursor<'_>) -> Result<(), LineError> {
+    fn dispatch(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Stopped> {
         if cursor.skip(b"//! ") {
             return Ok(self.notes.read(self.state, cursor)?);
         }
@@ -129,7 +130,7 @@ impl Body<'_> {
         Ok(self.transition(cursor)?)
     }
 
-    fn begin_state(&mut self, cursor: &mut Cursor<'_>) -> Result<(), LineError> {
+    fn begin_state(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Stopped> {
         self.finish_choice()?;
         let start = cursor.offset();
         let next = self.state.map_or(0, |state| u64::from(state) + 1);
@@ -145,7 +146,7 @@ impl Body<'_> {
         read_labels(cursor, state, &mut self.notes)
     }
 
-    fn begin_choice(&mut self, cursor: &mut Cursor<'_>) -> Result<(), LineError> {
+    fn begin_choice(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Stopped> {
         let number = self.choice.as_ref().map_or(0, |choice| choice.number + 1);
         self.finish_choice()?;
         if self.state.is_none() {
@@ -199,7 +200,7 @@ impl Body<'_> {
     }
 
     /// Ends the choice whose transitions have been read, if there is one.
-    fn finish_choice(&mut self) -> Result<(), LineError> {
+    fn finish_choice(&mut self) -> Result<(), Stopped> {
         let (Some(choice), Some(state)) = (self.choice.take(), self.state) else { return Ok(()) };
         if self.row.is_empty() {
             // Storm writes a state without choices with an action that leads nowhere.
@@ -230,7 +231,7 @@ impl Body<'_> {
         self.indices &= choice.is_index;
         let row = self.rows.row(RowId(0));
         self.assembly.push(state, hash_row(row), row, choice.action).map_err(|error| match error {
-            AssemblyError::Memory(error) => LineError::Import(error.into()),
+            AssemblyError::Memory(error) => Stopped::Import(error.into()),
             AssemblyError::TooManyRows => {
                 Fault::new(choice.line, 1, AssemblyError::at_most(), "one more").into()
             }
@@ -239,8 +240,8 @@ impl Body<'_> {
 
     fn finish<R: BufRead>(mut self, lines: Lines<'_, R>) -> Result<Imported, ImportError> {
         self.finish_choice().map_err(|error| match error {
-            LineError::Fault(fault) => fault.in_file(self.path, 0),
-            LineError::Import(error) => error,
+            Stopped::Fault(fault) => fault.in_file(self.path, 0),
+            Stopped::Import(error) => error,
         })?;
         let found = self.state.map_or(0, |state| u64::from(state) + 1);
         if found != self.header.states {
@@ -281,23 +282,5 @@ impl Body<'_> {
         }
         imported.model = imported.model.with_rewards(rewards)?;
         Ok(imported)
-    }
-}
-
-/// What ends the reading of a line.
-pub(super) enum LineError {
-    Fault(Box<Fault>),
-    Import(ImportError),
-}
-
-impl From<MemoryError> for LineError {
-    fn from(error: MemoryError) -> Self {
-        Self::Import(error.into())
-    }
-}
-
-impl From<Box<Fault>> for LineError {
-    fn from(fault: Box<Fault>) -> Self {
-        Self::Fault(fault)
     }
 }

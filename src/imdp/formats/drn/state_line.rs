@@ -1,8 +1,8 @@
 //! What is said of a state besides its choices.
 
 use super::header::{Header, end_of_line, read_name};
-use super::read::LineError;
 use super::rewards::RewardNotes;
+use super::stopped::Stopped;
 use super::valuations::Valuations;
 use crate::formats::import::{Cursor, Fault, read_variable_value};
 use crate::model::{Labels, MemoryError, StateId, StateSet, StateVariables, VariableValues, require_memory};
@@ -141,7 +141,7 @@ pub(super) fn read_labels(
     cursor: &mut Cursor<'_>,
     state: StateId,
     notes: &mut StateNotes,
-) -> Result<(), LineError> {
+) -> Result<(), Stopped> {
     let mut first = true;
     loop {
         let blanks = cursor.skip_blanks();

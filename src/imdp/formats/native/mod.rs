@@ -27,11 +27,13 @@
 //!
 //! A name is its length as u32 and UTF-8. Equal models give equal bytes.
 
+mod error;
 mod read;
 mod sections;
 mod write;
 
-pub use read::{NativeError, read, read_from};
+pub use error::NativeError;
+pub use read::{read, read_from};
 pub use write::{write, write_file};
 
 const MAGIC: [u8; 8] = *b"DYNABS\r\n";

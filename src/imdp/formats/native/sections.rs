@@ -4,8 +4,7 @@ use std::io::{self, Read};
 
 use sha2::{Digest, Sha256};
 
-use super::read::NativeError;
-use super::{MAGIC, Section, VERSION};
+use super::{MAGIC, NativeError, Section, VERSION};
 use crate::model::StateSet;
 
 /// The length of the checksum.

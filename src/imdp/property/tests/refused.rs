@@ -34,7 +34,7 @@ const REFUSED: [(&str, &[&str]); 47] = [
     ("P>=-0.5 [ F b ]", &["between 0 and 1", "-0.5"]),
     ("(Pmaxmin=? [ F b ])>=2", &["between 0 and 1", "2"]),
     ("(Pmaxmin=? [ F b ])>=-1", &["between 0 and 1", "-1"]),
-    ("P>=p [ F b ]", &["the constant p has no value", "--const p=VALUE"]),
+    ("P>=p [ F b ]", &["the constant p has no value", "const p = VALUE"]),
     ("Pmaxmin=? [ F b ] & Pmin=? [ F b ]", &["expected a formula"]),
     ("(P>=0.5 [ F b ])>=0.5", &["expected a number"]),
     ("Pmaxmin=? [ b & F b ]", &["temporal operator", "parentheses"]),

@@ -61,7 +61,7 @@ impl Component<'_, '_> {
             Bound::Upper => {
                 let shared = &mut *self.shared;
                 self.sweep.evaluate_rows(&shared.lower, Bound::Lower, &mut shared.lower_rows);
-                levels(self)
+                levels(self.shared, &self.sweep)
             }
         };
         let Some(part) = Part::new(self, side, &levels, budget) else { return false };

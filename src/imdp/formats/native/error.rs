@@ -1,0 +1,44 @@
+//! Why a file is no model of the native format.
+
+use crate::model::{ImdpError, MemoryError};
+use std::io;
+
+/// Why a file of the native format was refused.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum NativeError {
+    /// The file cannot be opened or read.
+    #[error("cannot read the model: {0}")]
+    Io(#[from] io::Error),
+    /// The file does not start like this format.
+    #[error("this is not a dynabs model: its first bytes are not `DYNABS`")]
+    NotNative,
+    /// The file is of another version of this format.
+    #[error("the model has format version {found}, this program reads version {expected}: write it anew")]
+    Version {
+        /// The version of the file.
+        found: u32,
+        /// The version that can be read.
+        expected: u32,
+    },
+    /// The file ends early, or its length changed while it was read.
+    #[error("the model is not as long as it should be: copy it anew")]
+    Truncated,
+    /// A section is not what it should be.
+    #[error("the model is damaged, in section {section}: {problem}")]
+    Section {
+        /// The section.
+        section: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// Everything looks right, but some bytes are not those that were written.
+    #[error("the model is damaged: its checksum does not match")]
+    Checksum,
+    /// The model does not fit into memory.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
+    /// The parts do not make an interval MDP.
+    #[error("the file does not describe an interval MDP: {0}")]
+    Model(#[from] ImdpError),
+}
