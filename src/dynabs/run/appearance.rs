@@ -143,8 +143,9 @@ pub(super) fn settle(directory: &Path) -> io::Result<()> {
 /// Whether a file in the directory of a run is one that a run can have: the others are the user's.
 fn is_own(name: &str) -> bool {
     const STEMS: [&str; 2] = ["model", "rows"];
-    let is_ours = |extension| {
-        extension == "props" || Format::ALL.iter().any(|format| format.extensions().contains(&extension))
+    let is_ours = |extension: &str| {
+        extension == "props"
+            || Format::ALL.iter().flat_map(|format| format.extensions()).any(|own| *own == extension)
     };
     let is_part = |(stem, extension): (&str, &str)| match extension {
         // Several structures have numbers.
