@@ -9,6 +9,7 @@ mod bad_input;
 mod binomial;
 mod cases;
 mod controller;
+mod costs;
 mod covered;
 mod crosscheck_engines;
 mod crosscheck_storm;

@@ -31,6 +31,6 @@ impl Question<'_> {
             lower: self.arrivals::<Lower>(None, &with_memory.lower),
             upper: self.arrivals::<Upper>(None, &with_memory.upper),
         };
-        Some(LandingSolution { values, with_memory, policy: policy?, status, iterations })
+        Some(LandingSolution { values, with_memory, policy: policy?, history: vec![], status, iterations })
     }
 }

@@ -27,6 +27,7 @@
 
 mod automaton;
 mod builder;
+mod cost;
 mod distribution;
 mod dynamics;
 mod expression_dynamics;
@@ -46,6 +47,7 @@ mod values;
 
 pub use automaton::{Leg, Logic, RegionParts, ShapeParts};
 pub use builder::ProblemBuilder;
+pub use cost::{Cost, CostParts};
 pub use distribution::DistributionParts;
 pub use dynamics::{Dynamics, GroupSteps, LinearDynamics};
 pub use expression_dynamics::{Constant, Equations, ExpressionDynamics};
