@@ -200,14 +200,15 @@ pub fn write_input_run(
 ) -> Result<Manifest, RunDirectoryError> {
     let mut staging = match exported {
         None => Staging::begin(target, options.force)?,
-        Some(InputModel { model, properties, .. }) => {
+        Some(InputModel { model, properties, costs, .. }) => {
             // What pruning leaves has the lower bound only.
             let asked = if manifest.pruning.is_some() { &properties[..1] } else { &properties[..] };
             let (mut staging, row_states) = begin_with_model(target, model, asked, options, progress)?;
             manifest.row_states = row_states;
             staging.write(NATIVE_MODEL, |out| native::write(model, out))?;
             staging.write("model.props", |out| {
-                asked.iter().try_for_each(|property| writeln!(out, "{property}"))
+                asked.iter().try_for_each(|property| writeln!(out, "{property}"))?;
+                costs.iter().try_for_each(|question| writeln!(out, "{question}"))
             })?;
             staging
         }
