@@ -4,6 +4,7 @@
 //! stored per transition, and the abstraction has bounds on both sides.
 
 mod correlated;
+mod costs;
 mod export;
 mod leaving;
 mod reach;
@@ -24,6 +25,7 @@ use crate::statistics::BudgetError;
 use crate::system::{ImageError, ImageMap, Lattice};
 use crate::task::CellTask;
 use crate::{Diagnostic, Warning};
+pub use costs::CostError;
 pub use export::{InputEncoding, InputModel};
 use imdp::numeric::Rational;
 use reach::Reach;
