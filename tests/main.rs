@@ -13,6 +13,7 @@ mod costs;
 mod covered;
 mod crosscheck_engines;
 mod crosscheck_storm;
+mod design;
 mod diff;
 mod enclosure;
 mod faults;
