@@ -6,6 +6,7 @@ use dynabs::guarantee::{Event, Evidence, Guarantee, SampleEvidence, lower_bound_
 use dynabs::landing::LandingSolution;
 use dynabs::problem::{Components, InputNoise, InputProblem};
 use dynabs::statistics::Allocation;
+use dynabs::system::Variable;
 use imdp::numeric::{round_decimal_up, shortest_decimal};
 use imdp::property::Verdict;
 use imdp::solver::{Answer, SolverOptions, Status};
@@ -166,6 +167,15 @@ pub(super) fn summary(problem: &InputProblem, abstraction: &InputAbstraction) ->
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  {name:<13}{value}");
     };
+    let mode = problem.mode();
+    let named = |all: &[Variable]| all.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    line("state", named(mode.states()));
+    if mode.num_inputs() > 0 {
+        line("input", named(mode.inputs()));
+    }
+    if let Some(how) = mode.discretisation() {
+        line("step", how.to_string());
+    }
     let question = abstraction.question();
     let cells = problem.grid().num_cells();
     line(
@@ -191,13 +201,18 @@ pub(super) fn summary(problem: &InputProblem, abstraction: &InputAbstraction) ->
     match &abstraction.evidence {
         Evidence::Samples(samples) => {
             line("noise", format!("{}, from {} samples", kind(samples), thousands(samples.number)));
-            let confidence =
+            let guarantee =
                 Guarantee { event: Event::of_inputs(problem), evidence: abstraction.evidence.clone() };
-            let confidence = confidence.confidence().map(shortest_decimal).unwrap_or_default();
-            line("bounds", format!("hold together with confidence {confidence}"));
+            let confidence = guarantee.confidence().map(shortest_decimal).unwrap_or_default();
+            let sweep = match samples.sweep {
+                1 => String::new(),
+                settings => format!(", of {settings} settings together"),
+            };
+            line("bounds", format!("hold together with confidence {confidence}{sweep}"));
             let spent = |a: &Allocation| format!("{} {:.2e} over {} events", a.family, a.beta, a.events);
             line("budget", samples.budget.iter().map(spent).collect::<Vec<_>>().join(", "));
             line("unseen mass", format!("at most {:.6}", samples.unseen_mass));
+            line("fixed", crate::summary::fixed_beforehand(&guarantee));
         }
         Evidence::Known { unlisted } => {
             let noise = |j: usize| {

@@ -5,17 +5,19 @@ use super::solve::LimitArguments;
 use crate::choices::format_names;
 use crate::memory::{bytes, peak, use_memory};
 use crate::results::{PropertyResult, exit_code, table};
-use crate::summary::{memory, summary};
+use crate::summary::{memory, memory_json, summary};
 use crate::{Bars, CliError, EncodingName, print, use_threads, warn};
 use clap::Parser;
 use dynabs::abstraction::{Abstraction, Footprint, compile};
+use dynabs::controller::Controller;
+use dynabs::explain::explain;
 use dynabs::model_file::{Document, SetArgument, StatedProblem, json_schema, starter_model};
 use dynabs::problem::Problem;
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, solution_options, write_run};
 use imdp::files::{self, Outputs};
 use imdp::formats::Format;
-use imdp::model::{IntervalMdp, available_memory};
-use imdp::property::Property;
+use imdp::model::IntervalMdp;
+use imdp::property::{Property, Verdict};
 use imdp::solver::{Answer, Pruned};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -172,6 +174,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
                 prune: arguments.prune,
                 json: arguments.json,
                 quiet: arguments.quiet,
+                dry_run: arguments.dry_run,
             };
             let sources = (&document, source.as_str());
             return compile_inputs::compile_inputs(sources, &problem, &wanted, notes, start, &bars);
@@ -194,6 +197,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
     let mut results = Vec::new();
     let mut pruning = None;
     let mut solution = None;
+    let mut explanation = None;
     if arguments.prune {
         let solving = Instant::now();
         let (result, report) = prune(&mut abstraction, &bars)?;
@@ -205,6 +209,10 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
     if arguments.solve && !arguments.prune {
         let solving = Instant::now();
         let (answer, result) = solve(&problem, &abstraction, &bars)?;
+        if !arguments.quiet && !arguments.json && is_low(&answer) {
+            let controller = Controller::new(&problem, &abstraction, &answer)?;
+            explanation = Some(explain(&problem, &abstraction, &answer, &controller, &*bars));
+        }
         results.push(result);
         solution = Some(answer.solution);
         phases.push(("solving", solving.elapsed()));
@@ -225,7 +233,15 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
         result.guarantee = Some(claim.map_err(|error| CliError::Failure(error.to_string()))?);
     }
     report(arguments, &manifest, &abstraction.footprint, &phases, &results)?;
+    if let Some(explanation) = explanation {
+        print(&explanation.to_string())?;
+    }
     Ok(exit_code(&results))
+}
+
+/// Whether a value asks for an explanation: it misses its threshold, or it is below one half.
+fn is_low(answer: &Answer) -> bool {
+    answer.verdict == Some(Verdict::Fails) || answer.lower < 0.5
 }
 
 /// Solves the task, with what controllers and reports need later.
@@ -337,10 +353,7 @@ fn report(
         if let Value::Object(object) = &mut object {
             object.insert("seconds".to_owned(), Value::Object(times));
             if arguments.dry_run {
-                let available = available_memory().map(|(bytes, _)| bytes);
-                let memory =
-                    json!({"needs": footprint.needs(), "bytes": footprint.bytes(), "available": available});
-                object.insert("memory".to_owned(), memory);
+                object.insert("memory".to_owned(), memory_json(footprint));
             }
             if !results.is_empty() {
                 object.insert("results".to_owned(), json!(results));

@@ -195,14 +195,4 @@ impl<'a> ActionCounts<'a> {
             all
         })
     }
-
-    /// An upper bound on the number of cells in a row.
-    pub(super) fn row_length(&self, grid: &Grid) -> usize {
-        let cells = grid.num_cells() as usize;
-        match (&self.shared, self.shared_windows.first()) {
-            (_, Some(window)) => window.volume().min(cells),
-            (Some(landing), None) => landing.table().volume().min(cells),
-            (None, None) => cells,
-        }
-    }
 }

@@ -1,8 +1,9 @@
 //! How much memory a compilation takes, known before it takes it.
 
 use super::steering::Steering;
+use super::targets::Targets;
 use crate::memory::{Need, TooLarge};
-use crate::partition::{CellId, CellKind};
+use crate::partition::{CellId, CellKind, Grid};
 use crate::problem::{Actions, Problem, TargetPoints};
 use imdp::numeric::to_f64;
 use serde::Serialize;
@@ -49,18 +50,37 @@ impl Footprint {
         Self { needs }
     }
 
+    /// What the cells of a grid take that are there already.
+    pub(super) fn of_cells(grid: &Grid) -> Self {
+        Self { needs: vec![Need::of_cells(grid)] }
+    }
+
     /// And what its rows take; by an estimate, if they are not shifts of one another.
     pub(super) fn with_rows(mut self, problem: &Problem, steering: &Steering) -> Self {
-        let targets = steering.targets.len() as u64;
-        self.needs.push(match steering.targets.alignment() {
-            Some(_) => Need {
-                what: "the rows of the model",
-                bytes: targets.saturating_mul(SHIFTED_ROW_BYTES),
-                field: field_of_targets(problem),
-            },
-            None => need_of_rows(problem, entries(problem, targets)),
-        });
+        let targets = &steering.targets;
+        let bytes = bytes_of_rows(problem, targets, targets.len() as u64);
+        self.needs.push(Need { what: "the rows of the model", bytes, field: field_of_targets(problem) });
         self
+    }
+
+    /// And what rows take that some targets have again, for actions that need room in between: known before they are made.
+    pub(super) fn with_rooms(mut self, problem: &Problem, targets: &Targets) -> Result<Self, TooLarge> {
+        let again = (targets.len() - targets.num_originals()) as u64;
+        if again > 0 {
+            let bytes = bytes_of_rows(problem, targets, again);
+            let what = "rows for actions that need room in between";
+            self.take(Need { what, bytes, field: field_of_targets(problem) })?;
+        }
+        Ok(self)
+    }
+
+    /// Adds a part that is about to be needed.
+    ///
+    /// # Errors
+    /// [`TooLarge`] if it does not fit beside what there is by now.
+    pub(super) fn take(&mut self, need: Need) -> Result<(), TooLarge> {
+        self.needs.push(need);
+        need.check()
     }
 
     /// Fails if there is not enough memory for all of it together.
@@ -116,6 +136,14 @@ fn ranges(problem: &Problem, steering: &Steering) -> u64 {
     }
     // A quarter more for what the mean may miss.
     found.saturating_mul(u64::from(cells)) / u64::from(probed) * 5 / 4
+}
+
+/// What the rows of so many of the targets take.
+fn bytes_of_rows(problem: &Problem, targets: &Targets, count: u64) -> u64 {
+    match targets.alignment() {
+        Some(_) => count.saturating_mul(SHIFTED_ROW_BYTES),
+        None => entries(problem, count).saturating_mul(ENTRY_BYTES),
+    }
 }
 
 /// How many entries the rows of so many targets have at most: the cells in a box around all samples, wherever a target sits, and

@@ -34,7 +34,7 @@ pub(super) fn build(
     let grid = problem.grid();
     let landings = ActionCounts::new(&problem.noise().samples, placements);
     if landings.shared().is_none() {
-        need_of_rows(problem, targets.len() as u64 * landings.row_length(grid) as u64).check()?;
+        need_of_rows(problem, targets.len() as u64 * u64::from(grid.num_cells())).check()?;
     }
     let ground =
         Ground::new(grid, landings.shared().map(|_| targets), states.heads(), |cell| states.of_cell(cell));

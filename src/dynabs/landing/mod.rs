@@ -26,6 +26,7 @@ mod layers;
 mod layout;
 mod masses;
 mod model;
+mod model_size;
 mod move_layers;
 #[cfg(test)]
 mod move_tests;
@@ -42,6 +43,7 @@ mod tests;
 mod weights;
 
 pub(crate) use arrays::Arrays;
+pub(crate) use arrivals::{FAILED, LOST};
 pub use axis::Axis;
 pub use flat::FlatModelError;
 pub(crate) use gather::Gather;

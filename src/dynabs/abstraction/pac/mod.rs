@@ -149,7 +149,7 @@ impl<'a> PacRows<'a> {
         let inside_only = levels.lower_bounds() == LowerBounds::InsideWindows;
         let landings = ActionCounts::in_windows(samples, placements, prepared.windows.clone(), inside_only);
         if landings.shared().is_none() {
-            let entries = targets.len() as u64 * landings.row_length(grid) as u64;
+            let entries = targets.len() as u64 * u64::from(grid.num_cells());
             need_of_rows(problem, entries).check()?;
         }
         let ground = Ground::new(grid, landings.shared().map(|_| targets), states.heads(), |cell| {
