@@ -3,7 +3,7 @@
 use super::RunFiles;
 use super::appearance::{NATIVE_MODEL, NOISE, PROBLEM};
 use super::error::OpenError;
-use super::manifest::{GroupedHorizon, InputFile, Manifest};
+use super::manifest::{Coordinates, GroupedHorizon, InputFile, Manifest};
 use super::open::problem_document;
 use super::solution::{ON_LATTICE, input_solution_options, stored};
 use super::staging::{RunDirectoryError, Staging};
@@ -133,6 +133,11 @@ impl Manifest {
                 .map(|steps| GroupedHorizon { model_steps: steps * micro_steps, original_steps: steps }),
             group_steps: 1,
             micro_steps: Some(micro_steps),
+            coordinates: Some(Coordinates {
+                states: problem.mode().states().to_vec(),
+                inputs: problem.mode().inputs().to_vec(),
+            }),
+            discretisation: problem.mode().discretisation().map(ToString::to_string),
             property: abstraction.property(Resolution::Pmaxmin).to_string(),
             threshold: problem.threshold().map(Probability::to_f64),
             initial_state: problem.initial_state().map(<[f64]>::to_vec),
