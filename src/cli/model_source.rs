@@ -196,11 +196,7 @@ fn raised_bounds(manifest: &Manifest, model: &IntervalMdp) -> String {
 
 fn load_file(path: &Path, format: Format, bars: &Bars) -> Result<LoadedModel, CliError> {
     bars.start("reading", format.work(path));
-    let mut before = 0;
-    let imported = format.import(path, &mut |read| {
-        bars.advance(read.saturating_sub(before));
-        before = read;
-    });
+    let imported = format.import(path, bars);
     bars.finish();
     let imported = imported.map_err(|error| match error.is_io() {
         true => CliError::Failure(error.to_string()),

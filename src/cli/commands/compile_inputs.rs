@@ -63,13 +63,7 @@ pub(super) fn compile_inputs(
     let solving = Instant::now();
     let mut kept = None;
     let result = if wanted.solve {
-        let progress =
-            |step, change: f64| bars.note(|| format!("step {step}, values change by {change:.1e}"));
-        let options = SolverOptions {
-            interrupt: Some(bars.interrupt()),
-            progress: Some(&progress),
-            ..SolverOptions::default()
-        };
+        let options = SolverOptions { progress: &**bars, ..SolverOptions::default() };
         let solution = abstraction.question().solve(&options);
         let result = InputResult::new(problem, &abstraction, &solution, solving.elapsed());
         let result = match &exported {

@@ -5,12 +5,12 @@ use crate::{Bars, CliError, print, warn};
 use clap::Args;
 use dynabs::report::{CrossCheckError, Material, MaterialOptions, page, pictures, read_cross_checks};
 use imdp::files::Outputs;
+use imdp::progress::Progress;
 use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 /// What to report, and where.
@@ -84,7 +84,7 @@ pub fn run(arguments: &ReportArguments) -> Result<ExitCode, CliError> {
         cross_checks,
     };
     let material = Material::new(&run, &answer, &controller, options, &*bars);
-    if bars.interrupt().load(Ordering::Relaxed) {
+    if bars.is_interrupted() {
         return Err(CliError::Interrupted);
     }
     let page = page(&material).map_err(|error| CliError::Failure(error.to_string()))?;

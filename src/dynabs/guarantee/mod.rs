@@ -15,7 +15,7 @@ mod words;
 pub use bound::{Bound, lower_bound_text};
 pub use claim::Claim;
 pub use coverage::Coverage;
-pub use event::{Event, Safety};
+pub use event::Event;
 pub use evidence::{Evidence, SampleEvidence};
 pub use gap::Gap;
 

@@ -3,8 +3,9 @@
 use super::markup::{escape, table};
 use super::material::Material;
 use super::numbers::{short, tuple};
-use crate::guarantee::{Evidence, Safety};
+use crate::guarantee::Evidence;
 use crate::run::Run;
+use crate::task::Safety;
 use imdp::engines::CrossCheckFile;
 
 /// A number with thin spaces between groups of three digits.

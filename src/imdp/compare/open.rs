@@ -82,7 +82,7 @@ pub fn collect(directory: &Path) -> Result<Option<Record>, CompareError> {
 /// A model and the properties beside it.
 fn open_model(path: &Path) -> Result<Record, CompareError> {
     let format = Format::of_path(path).unwrap_or(Format::Prism);
-    let imported = format.import(path, &mut |_| {})?;
+    let imported = format.import(path, &())?;
     let warnings = imported.warnings.iter().map(|warning| format!("{}: {warning}", path.display())).collect();
     let model = imported.model;
     let beside = path.with_extension("props");
