@@ -19,7 +19,7 @@ pub use event::Event;
 pub use evidence::{Evidence, SampleEvidence};
 pub use gap::Gap;
 
-use crate::task::Aim;
+use crate::task::{Aim, Safety};
 use imdp::numeric::{Rational, from_decimal, to_f64};
 use num_traits::One;
 use serde::ser::SerializeStruct;
