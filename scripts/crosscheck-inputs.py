@@ -164,8 +164,8 @@ def main():
                         compare(finding["engine"], kind, finding["value"][end], native[end], tolerance, at)
                     elif finding["agreement"] == "failed" and "not supported" not in " ".join(finding["notes"]):
                         failures.append(f"{at}: {finding['engine']}: {finding['notes']}")
-    for (kind, who), (count, most) in rows.items():
-        print(f"{kind:25} {who:15} {count:4} values, largest difference {most:.1e}")
+            for (_, who), (count, most) in ((key, row) for key, row in rows.items() if key[0] == kind):
+                print(f"{kind:25} {who:15} {count:4} values, largest difference {most:.1e}", flush=True)
     print(*failures, sep="\n")
     if failures:
         sys.exit(1)

@@ -47,11 +47,11 @@ try {
     seen.add(get("#fact-cell").textContent + get("#fact-value").textContent);
     check(get("#map .picked") !== null, "the picked cell is not shown");
     const leads = get("#map .leads") !== null, best = get("#fact-best").textContent;
-    check(leads === best.startsWith("steer to d = ("), `best action "${best}" but leads drawn: ${leads}`);
+    check(leads === (best !== "none"), `best action "${best}" but leads drawn: ${leads}`);
     if (leads) {
       steered++;
       check(Number(get("#fact-enabled").textContent) > 0, "steering without an enabled action");
-      check(get("#map .enabled") !== null, "enabled actions are not shown");
+      check(get("#map .enabled") !== null || get("[data-show=enabled]") === null, "enabled actions are not shown");
     }
     check(get("#picked-spoken").textContent.startsWith(get("#fact-cell").textContent), "nothing is spoken");
   }
@@ -96,7 +96,9 @@ try {
     input(get("#up"), 0);
     check(get("#across").value === "1" && get("#up").value === "0", "the axes do not swap");
     check(drawing("#map .heat") !== first, "other axes, same map");
-    check(get("#map .axes").textContent.includes("x₂x₁"), "axes are not named");
+    const [one, two] = [...document.querySelectorAll("#up option")].map((option) => option.textContent);
+    const named = (axes, ...names) => names.every((name) => get(axes).textContent.includes(name));
+    check(named("#map .axes", one, two), "axes are not named");
     for (const option of get("#across").options) {
       input(get("#across"), option.value);
       check(!/NaN|Infinity|undefined/.test(map.outerHTML), `the map across ${option.text} has no numbers`);
@@ -107,7 +109,7 @@ try {
     check(drawing("#map .heat") === first, "the axes do not go back");
     const curve = drawing("#section .curve");
     input(get("#along"), 1);
-    check(drawing("#section .curve") !== curve && get("#section .axes").textContent.includes("x₂"), "one cross-section only");
+    check(drawing("#section .curve") !== curve && named("#section .axes", two), "one cross-section only");
   }
   const between = get("[data-show=between]");
   if (between) {

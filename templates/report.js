@@ -47,10 +47,14 @@ const best = (cell, step) => {
   const left = data.horizon === null ? 1 : data.horizon - step;
   if (kinds[cell] !== 0 || left <= 0) return null;
   let found = null;
-  for (let e = policy.starts[cell]; e < policy.starts[cell + 1] && policy.left[e] <= left; e++) found = policy.target[e];
+  for (let e = policy.starts[cell]; e < policy.starts[cell + 1] && policy.left[e] <= left; e++) found = e;
   return found;
 };
-const next = (target) => point(target).map((d, j) => d + data.mean[j]);
+// Where the action of an entry of the policy leads, and what it is.
+const successors = data.successors && unpack(data.successors);
+const next = (entry) => successors ? Array.from(successors.subarray(entry * n, entry * n + n))
+  : point(policy.target[entry]).map((d, j) => d + data.mean[j]);
+const action = (entry) => data.inputs ? data.inputs[policy.target[entry]] : `steer to d = ${tuple(point(policy.target[entry]))}`;
 const enabled = (cell) => {
   const list = [];
   for (let r = ranges.starts[cell]; r < ranges.starts[cell + 1]; r++)
@@ -147,8 +151,8 @@ const arrow = (x, y, dx, dy, most) => {
   const wing = (s) => `${at2(x + dx - hx - s * 0.5 * hy)} ${at2(y + dy - hy + s * 0.5 * hx)}`;
   return `M${at2(x)} ${at2(y)}L${tip}M${wing(1)}L${tip}L${wing(-1)}`;
 };
-const step = (f, i, j, target) => {
-  const to = next(target), across = view.across === TIME ? i + 1 : to[view.across];
+const step = (f, i, j, entry) => {
+  const to = next(entry), across = view.across === TIME ? i + 1 : to[view.across];
   const x = f.px(view.across === TIME ? i : center(view.across, i)), y = f.py(center(view.up, j));
   return [x, y, f.px(across) - x, f.py(to[view.up]) - y];
 };
@@ -156,9 +160,9 @@ const arrows = (f) => {
   const nx = columns(), ny = data.cells[view.up], sx = Math.ceil(nx / 20), sy = Math.ceil(ny / 20);
   const place = Math.min(f.width / nx * sx, f.height / ny * sy), paths = ["", ""];
   for (let i = Math.floor(sx / 2); i < nx; i += sx) for (let j = Math.floor(sy / 2); j < ny; j += sy) {
-    const [cell, k] = placeOf(i, j), target = best(cell, k);
-    if (target === null) continue;
-    paths[Number(level(valueAt(cell, k)) >= data.firstLight)] += arrow(...step(f, i, j, target), 0.85 * place);
+    const [cell, k] = placeOf(i, j), entry = best(cell, k);
+    if (entry === null) continue;
+    paths[Number(level(valueAt(cell, k)) >= data.firstLight)] += arrow(...step(f, i, j, entry), 0.85 * place);
   }
   return `<path class="arrow on-dark" d="${paths[0]}"/><path class="arrow on-light" d="${paths[1]}"/>`;
 };
@@ -180,7 +184,7 @@ const runs = (f) => {
 const pick = (f) => {
   if (!touched) return "";
   const i = view.across === TIME ? view.step : view.cell[view.across], j = view.cell[view.up];
-  const cell = cellOf(view.cell), target = best(cell, view.step);
+  const cell = cellOf(view.cell), entry = best(cell, view.step);
   let text = "";
   if (show.enabled && ranges && kinds[cell] === 0) {
     const places = enabled(cell).map((a) => project(f, i + 1, point(a)).map(at2).join(" "));
@@ -188,8 +192,8 @@ const pick = (f) => {
   }
   const square = box(f.px(faceAcross(i)), f.py(face(view.up, j)), f.px(faceAcross(i + 1)), f.py(face(view.up, j + 1)));
   text += `<path class="picked" d="${square}"/><path class="picked inner" d="${square}"/>`;
-  if (target !== null) {
-    const d = arrow(...step(f, i, j, target), Infinity);
+  if (entry !== null) {
+    const d = arrow(...step(f, i, j, entry), Infinity);
     text += `<path class="casing" style="stroke-width:5" d="${d}"/><path class="leads" d="${d}"/>`;
   }
   return text;
@@ -217,21 +221,22 @@ const section = () => {
   put("regions", (avoid && `<path fill="url(#section-hatch)" d="${avoid}"/>`) + (goal && `<path class="goal band" d="${goal}"/>`));
   const wanted = data.threshold === null ? "" : `<path class="threshold" d="M${f.left} ${at2(f.py(data.threshold))}h${f.width}"/>`;
   put("curve", wanted + `<path class="value" d="${d}"/>`);
-  put("axes", axes(f, data.names[j], data.valueName));
+  put("axes", axes(f, data.titles[j], data.valueName));
   const at = data.names.map((name, l) => l === j ? "" : `${name} = ${short(center(l, view.cell[l]))}`).filter(Boolean);
   $("section-title").textContent = `${data.valueName} along ${data.names[j]}` + (at.length ? " at " + at.join(", ") : "");
 };
 
 const facts = () => {
-  const cell = cellOf(view.cell), target = best(cell, view.step), kind = ["ordinary", "goal", "unsafe"][kinds[cell]];
+  const cell = cellOf(view.cell), entry = best(cell, view.step), kind = ["ordinary", "goal", "unsafe"][kinds[cell]];
   const sides = view.cell.map((i, j) => `${data.names[j]} ∈ [${short(face(j, i))}, ${short(face(j, i + 1))})`);
   const value = (Math.floor(valueAt(cell, view.step) * 1e6) / 1e6).toFixed(6);
   const late = view.step > 0 ? ` at step ${view.step}${data.horizon === null ? "" : ` of ${data.horizon}`}` : "";
   const facts = {
     cell: sides.join(", "), kind, value: value + late,
-    enabled: kinds[cell] !== 0 ? "none needed" : ranges ? String(enabled(cell).length) : "left out of this page",
-    best: target === null ? "none" : `steer to d = ${tuple(point(target))}`,
-    leads: target === null ? "–" : tuple(next(target)),
+    enabled: kinds[cell] !== 0 ? "none needed" : ranges ? String(enabled(cell).length)
+      : data.inputs ? String(data.inputs.length) : "left out of this page",
+    best: entry === null ? "none" : action(entry),
+    leads: entry === null ? "–" : tuple(next(entry)),
   };
   for (const [id, text] of Object.entries(facts)) $("fact-" + id).textContent = text;
   if (touched) $("picked-spoken").textContent = `${facts.cell}: ${kind}, value ${facts.value}, ${facts.best}`;
@@ -244,7 +249,7 @@ const draw = () => {
   put("regions", regions(f));
   put("arrows", show.arrows ? arrows(f) : "");
   put("runs", show.runs ? runs(f) : "");
-  put("axes", axes(f, view.across === TIME ? data.time : data.names[view.across], data.names[view.up]));
+  put("axes", axes(f, view.across === TIME ? data.time : data.titles[view.across], data.titles[view.up]));
   $("map-title").textContent = `${data.valueName} over ${view.across === TIME ? data.time : data.names[view.across]} and ${data.names[view.up]}`;
   redraw();
 };

@@ -7,7 +7,8 @@ use dynabs::report::{CROSS_CHECK, Material, MaterialOptions, Picture, page, pict
 use dynabs::run::{Manifest, Run, WriteOptions, write_run};
 use imdp::formats::sha256_hex;
 use imdp::solver::{Answer, SolverOptions};
-use serde_json::Value;
+use serde_json::{Value, json};
+use std::f64::consts::PI;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -41,8 +42,10 @@ fn reported(directory: &Path, times: Vec<(&'static str, Duration)>) -> Reported 
     let controller = Controller::new(&run.problem, &run.abstraction, &answer).unwrap();
     let cross_checks = read_cross_checks(directory, &run.manifest).unwrap();
     let options = MaterialOptions { seed: 1, runs: 300, drawn: 12, times, cross_checks };
-    let material = Material::new(&run, &answer, &controller, options, &());
-    let (page, pictures) = (page(&material).unwrap(), pictures(&material));
+    let (page, pictures) = {
+        let material = Material::new(&run, &answer, &controller, options, &());
+        (page(&material).unwrap(), pictures(&material))
+    };
     Reported { answer, run, page, pictures }
 }
 
@@ -315,6 +318,90 @@ fn the_tool_and_its_mistakes() {
     assert_eq!(fs::read_to_string(&output).unwrap(), plain);
 }
 
+/// The page and the plots of a problem whose actions are inputs.
+fn of_inputs(scratch: &TempDir, name: &str, model: &Value) -> (PathBuf, Vec<String>) {
+    let (file, directory) = (scratch.path().join(format!("{name}.json")), scratch.path().join(name));
+    fs::write(&file, model.to_string()).unwrap();
+    let run = |tool: &str, arguments: &[&Path]| {
+        let output = Command::cargo_bin(tool).unwrap().args(arguments).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    };
+    run("dynabs-compile", &[&file, Path::new("-o"), &directory, Path::new("--no-tra"), Path::new("-q")]);
+    let (page, svg) = (scratch.path().join(format!("{name}.html")), directory.join("svg"));
+    let options = ["--runs=200", "--keep=9", "--no-times", "-q", "-o"].map(Path::new);
+    run(
+        "dynabs-check",
+        &[&[Path::new("report"), &directory], &options[..], &[&page, Path::new("--svg"), &svg]].concat(),
+    );
+    let pictures =
+        ["value", "section"].map(|name| fs::read_to_string(svg.join(format!("{name}.svg"))).unwrap());
+    (page, pictures.to_vec())
+}
+
+/// A car of which a parameter is uncertain, and a room in one dimension.
+fn input_models() -> [(&'static str, Value); 3] {
+    let noise = json!({"gaussian": {"deviation": 0.3}});
+    let car = json!({
+        "name": "car <&>",
+        "dynamics": {
+            "states": ["x", "heading"], "inputs": ["turn", "speed"], "units": {"x": "m", "heading": "<rad>"},
+            "parameters": {"grip": [0.8, 1]},
+            "next": ["x + grip*speed*cos(heading)", "heading + 0.5*turn"]
+        },
+        "noise": {"components": [noise, {"uniform": {"lower": -0.1, "upper": 0.1}}]},
+        "input": {"lower": [-1, 0], "upper": [1, 1], "points": [3, 2]},
+        "partition": {
+            "lower": [-4, -PI], "upper": [4, PI], "cells": [16, 12], "periodic": [false, true]
+        },
+        "task": {
+            "goal": [{"lower": [2, null], "upper": [4, null]}], "unsafe": [{"lower": [-4, null], "upper": [-3, null]}],
+            "horizon": 8, "threshold": 0.5
+        },
+        "initial_state": [-1, 0.3]
+    });
+    let room = json!({
+        "name": "room",
+        "dynamics": {"A": [[0.9]], "B": [[1]], "units": {"x1": "°C"}},
+        "noise": {"components": [noise]},
+        "input": {"lower": [-1], "upper": [1], "points": [3]},
+        "partition": {"lower": [-2], "upper": [2], "cells": [20]},
+        "task": {"type": "stay", "horizon": 12}
+    });
+    let mut formula = car.clone();
+    formula["regions"] =
+        json!({"a": {"lower": [0, -4], "upper": [1, 4]}, "b": {"lower": [2, -4], "upper": [4, 4]}});
+    formula["task"] = json!({"type": "sequence", "sequence": [{"reach": "b"}, {"reach": "a"}], "horizon": 9});
+    [("car", car), ("room", room), ("formula", formula)]
+}
+
+#[test]
+fn inputs_are_reported() {
+    let scratch = TempDir::new().unwrap();
+    for (name, model) in input_models() {
+        let (path, pictures) = of_inputs(&scratch, name, &model);
+        let page = fs::read_to_string(path).unwrap();
+        assert_well_formed(&page);
+        assert_self_contained(&page);
+        for svg in &pictures {
+            assert_well_formed(svg);
+            assert_numbers(svg);
+        }
+        let data = data(&page);
+        let cells: u64 = data["cells"].as_array().unwrap().iter().map(|n| n.as_u64().unwrap()).product();
+        let values = decoded(data["values"]["data"].as_str().unwrap());
+        let steps = data["lastStep"].as_u64().unwrap();
+        let expected = if name == "formula" { 0 } else { model["task"]["horizon"].as_u64().unwrap() };
+        assert_eq!((steps, values.len() as u64), (expected, 4 * cells * (steps + 1)), "{name}");
+        assert_eq!(data["runs"].as_array().unwrap().len(), 9);
+        let (of, words) = if name == "room" { ("u1", "°C") } else { ("(turn, speed)", "[&lt;rad&gt;]") };
+        assert!(data["inputs"][0].as_str().unwrap().starts_with(of), "{data}");
+        assert!(page.contains(words) && !page.contains("<rad>"));
+        assert!(page.contains("no controller with these inputs is worth more"));
+        let bound = between(&page, "≥ ", "</strong>");
+        assert!(bound.parse::<f64>().is_ok_and(|bound| (0.0..=1.0).contains(&bound)), "{bound}");
+    }
+}
+
 #[test]
 fn a_browser_opens_it() {
     let scratch = TempDir::new().unwrap();
@@ -328,6 +415,9 @@ fn a_browser_opens_it() {
         let file = scratch.path().join(format!("{model}.html"));
         fs::write(&file, reported(&compiled(&scratch, model, &sets), vec![]).page).unwrap();
         command.arg(file);
+    }
+    for (name, model) in input_models() {
+        command.arg(of_inputs(&scratch, name, &model).0);
     }
     let output = command.output().unwrap();
     let text = String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned();

@@ -7,7 +7,7 @@ use dynabs::abstraction::inputs::{InputAbstraction, InputEncoding, InputModel, I
 use dynabs::landing::FlatModelError;
 use dynabs::model_file::Document;
 use dynabs::problem::InputProblem;
-use dynabs::run::{Manifest, PruningReport, WriteOptions, write_input_run};
+use dynabs::run::{Manifest, PruningReport, WriteOptions, input_solution_options, write_input_run};
 use imdp::progress::Progress;
 use imdp::solver::SolverOptions;
 use serde_json::{Map, Value, json};
@@ -64,7 +64,7 @@ pub(super) fn compile_inputs(
     let mut kept = None;
     let result = if wanted.solve {
         let options = SolverOptions { progress: &**bars, ..SolverOptions::default() };
-        let solution = abstraction.question().solve(&options);
+        let solution = abstraction.question().solve(&input_solution_options(problem, &options));
         let result = InputResult::new(problem, &abstraction, &solution, solving.elapsed());
         let result = match &exported {
             Some(Exported { model, .. }) if model.encoding == InputEncoding::Flat => {

@@ -1,11 +1,18 @@
 //! `dynabs-check report`: a run as one page.
 
-use crate::run_source::{Refined, refine};
+use crate::input_run_source::SolvedInputs;
+use crate::run_source::{Controlled, Refined};
 use crate::{Bars, CliError, print, warn};
 use clap::Args;
-use dynabs::report::{CrossCheckError, Material, MaterialOptions, page, pictures, read_cross_checks};
+use dynabs::controller::Controller;
+use dynabs::report::{
+    CrossCheckError, InputMaterial, Material, MaterialOptions, Picture, ReportError, input_page,
+    input_pictures, page, pictures, read_cross_checks,
+};
+use dynabs::run::Manifest;
 use imdp::files::Outputs;
 use imdp::progress::Progress;
+use imdp::solver::SolverOptions;
 use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
@@ -64,35 +71,24 @@ impl From<CrossCheckError> for CliError {
 pub fn run(arguments: &ReportArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
     let start = Instant::now();
-    let Refined { run, answer, controller } = refine(&arguments.directory, &bars)?;
-    let mut times = vec![("opening and solving", start.elapsed())];
-    if arguments.no_times {
-        times.clear();
-    }
-    let cross_checks = match read_cross_checks(&arguments.directory, &run.manifest) {
-        Err(error @ CrossCheckError::OtherModel { .. }) => {
-            warn(&format!("warning: {error}\n"));
-            None
+    let (page, pictures) = match Controlled::open(&arguments.directory, &bars)? {
+        Controlled::Inputs(solved, controller) => of_inputs(arguments, &solved, &controller, start, &bars)?,
+        Controlled::Targets(refined) => {
+            let Refined { run, answer, controller } = &*refined;
+            let options = options(arguments, &run.manifest, start)?;
+            let material = Material::new(run, answer, controller, options, &*bars);
+            (page(&material), pictures(&material))
         }
-        read => read?,
     };
-    let options = MaterialOptions {
-        seed: arguments.seed,
-        runs: arguments.runs,
-        drawn: arguments.keep,
-        times,
-        cross_checks,
-    };
-    let material = Material::new(&run, &answer, &controller, options, &*bars);
     if bars.is_interrupted() {
         return Err(CliError::Interrupted);
     }
-    let page = page(&material).map_err(|error| CliError::Failure(error.to_string()))?;
+    let page = page.map_err(|error| CliError::Failure(error.to_string()))?;
     let mut texts = vec![(arguments.output.clone(), page)];
     if let Some(directory) = &arguments.svg {
         fs::create_dir_all(directory).map_err(|error| CliError::writing(directory, &error))?;
         let path = |name: &str| directory.join(format!("{name}.svg"));
-        texts.extend(pictures(&material).into_iter().map(|picture| (path(picture.name), picture.svg)));
+        texts.extend(pictures.into_iter().map(|picture| (path(picture.name), picture.svg)));
     }
     let mut files = Outputs::default();
     for (path, text) in &texts {
@@ -105,4 +101,45 @@ pub fn run(arguments: &ReportArguments) -> Result<ExitCode, CliError> {
         print(&lines.collect::<String>())?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// A page and its plots.
+type Reported = (Result<String, ReportError>, Vec<Picture>);
+
+/// A run whose actions are inputs.
+fn of_inputs(
+    arguments: &ReportArguments,
+    SolvedInputs { run, solution }: &SolvedInputs,
+    controller: &Controller,
+    start: Instant,
+    bars: &Bars,
+) -> Result<Reported, CliError> {
+    let solver = SolverOptions { progress: bars, ..SolverOptions::default() };
+    let solution = run.by_step(solution, &solver);
+    let options = options(arguments, &run.manifest, start)?;
+    let material = InputMaterial::new(run, &solution, controller, options, bars);
+    Ok((input_page(&material), input_pictures(&material)))
+}
+
+/// What to simulate and to show besides.
+fn options(
+    arguments: &ReportArguments,
+    manifest: &Manifest,
+    start: Instant,
+) -> Result<MaterialOptions, CliError> {
+    let times = if arguments.no_times { vec![] } else { vec![("opening and solving", start.elapsed())] };
+    let cross_checks = match read_cross_checks(&arguments.directory, manifest) {
+        Err(error @ CrossCheckError::OtherModel { .. }) => {
+            warn(&format!("warning: {error}\n"));
+            None
+        }
+        read => read?,
+    };
+    Ok(MaterialOptions {
+        seed: arguments.seed,
+        runs: arguments.runs,
+        drawn: arguments.keep,
+        times,
+        cross_checks,
+    })
 }

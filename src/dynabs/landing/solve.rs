@@ -32,6 +32,8 @@ pub struct LandingSolution {
     pub with_memory: ValueBounds,
     /// The inputs, by `memory · cells + cell`.
     pub policy: Policy,
+    /// The lower bounds at the start with 0, 1, … steps left, if [`SolverOptions::history`] has room for all.
+    pub history: Vec<Vec<f64>>,
     /// How the computation ended.
     pub status: Status,
     /// The number of steps taken from below.
@@ -49,7 +51,8 @@ impl Question<'_> {
     pub fn solve(&self, options: &SolverOptions<'_>) -> LandingSolution {
         let mut control = Control::new(options);
         let pairs = self.pairs();
-        let (lower, policy, stopped) = self.lower_bounds(&pairs, &mut control);
+        let mut history = vec![];
+        let (lower, policy, stopped) = self.lower_bounds(&pairs, &mut control, &mut history);
         let iterations = control.iterations;
         let (upper, stopped_above) = match stopped {
             None => self.upper_bounds(&pairs, &mut control, iterations),
@@ -65,7 +68,14 @@ impl Question<'_> {
             (None, None) if values.gap() <= options.epsilon => Status::Converged,
             (None, None) => Status::PrecisionLimit,
         };
-        LandingSolution { values, with_memory: ValueBounds { lower, upper }, policy, status, iterations }
+        LandingSolution {
+            values,
+            with_memory: ValueBounds { lower, upper },
+            policy,
+            history,
+            status,
+            iterations,
+        }
     }
 
     /// By memory, the cells in which something can be done with it, ascending.
@@ -127,7 +137,9 @@ impl Question<'_> {
         &self,
         pairs: &[Vec<u32>],
         control: &mut Control<'_>,
+        history: &mut Vec<Vec<f64>>,
     ) -> (Vec<f64>, Policy, Option<Status>) {
+        let keeps = self.steps.is_some_and(|steps| steps <= control.options().history as u64);
         let cells = self.task.num_cells();
         let mut policy = Choices::new(pairs.len() * cells, self.steps);
         let (aim, is_bounded) = (self.task.aim(), self.steps.is_some());
@@ -142,6 +154,9 @@ impl Question<'_> {
             if let Some(reason) = control.stop() {
                 let values = if renews { vec![0.0; values.len()] } else { values };
                 return (values, policy.finish(), Some(reason));
+            }
+            if keeps {
+                history.push(self.arrivals::<Lower>(None, &values));
             }
             let left = control.iterations + 1;
             let mut change = 0.0f64;
@@ -165,6 +180,12 @@ impl Question<'_> {
             if !renews && change <= self.standstill(control) {
                 break;
             }
+        }
+        if keeps {
+            // What does not change any more is the same with all steps that are left.
+            let last = self.arrivals::<Lower>(None, &values);
+            let steps = self.steps.unwrap_or(0) as usize + 1;
+            history.resize(steps, last);
         }
         (values, policy.finish(), None)
     }

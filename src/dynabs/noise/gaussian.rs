@@ -31,6 +31,11 @@ impl Gaussian {
         self.mean.len()
     }
 
+    /// The mean, `n` numbers.
+    pub fn mean(&self) -> &[f64] {
+        self.mean.as_slice()
+    }
+
     /// Draws one sample, `n` numbers.
     pub fn draw(&self, rng: &mut impl Rng, sample: &mut [f64]) {
         sample.iter_mut().for_each(|z| *z = StandardNormal.sample(rng));

@@ -1,9 +1,12 @@
 //! The numbers that a page's script redraws plots from.
 
+use super::input_material::InputMaterial;
+use super::markup::escape;
 use super::material::Material;
-use super::numbers::{compact, subscripted};
+use super::numbers::compact;
 use super::palette::{FIRST_LIGHT_LEVEL, LEVELS, colour};
 use super::paths::class;
+use super::scene::Scene;
 use super::sides::sides;
 use super::view::{Axis, View};
 use crate::partition::{CellId, CellKind, Region};
@@ -23,55 +26,59 @@ pub(super) struct Embedded {
     pub(super) left_out: Vec<String>,
 }
 
-pub(super) fn embed(material: &Material<'_>, view: &View) -> Embedded {
-    let problem = material.problem();
-    let cells = problem.grid().num_cells();
+/// What the script needs to know about actions.
+pub(super) struct EmbeddedActions {
+    /// The fields.
+    pub(super) fields: Value,
+    pub(super) left_out: Vec<String>,
+}
+
+/// Everything that the script needs; `actions` is asked only if the page is not static.
+pub(super) fn embed(scene: &Scene<'_>, view: &View, actions: impl FnOnce() -> EmbeddedActions) -> Embedded {
+    let cells = scene.grid.num_cells();
     if cells > MOST_CELLS {
         let note = format!("{cells} cells are too many to embed: the plots cannot be changed");
         return Embedded { json: "null".into(), left_out: vec![note] };
     }
     let mut left_out = vec![];
-    if let Some(horizon) = problem.horizon().filter(|horizon| *horizon > material.values.last_step() as u64) {
-        let last = material.values.last_step();
+    let is_left_out = |horizon: &u64| *horizon > scene.values.last_step() as u64 && !scene.has_memory;
+    if let Some(horizon) = scene.horizon.filter(is_left_out) {
+        let last = scene.values.last_step();
         left_out.push(format!("values after step {last} of {horizon}"));
     }
-    let ranges = ranges(material);
-    if ranges.is_none() {
-        left_out.push("which actions are enabled in each cell".into());
-    }
-    let kind = |cell| match material.controller.kind(CellId(cell)) {
+    let actions = actions();
+    left_out.extend(actions.left_out);
+    let kind = |cell| match scene.actions.kind(CellId(cell)) {
         CellKind::Ordinary => 0,
         CellKind::Goal => 1,
         CellKind::Unsafe => 2,
     };
     let range = |end: fn((f64, f64)) -> f64| -> Vec<f64> {
-        (0..material.dimension()).map(|j| end(material.range(j))).collect()
+        (0..scene.dimension()).map(|j| end(scene.range(j))).collect()
     };
-    let bytes: Vec<u8> = material.values.all().flat_map(f32::to_le_bytes).collect();
-    let value = json!({
-        "names": (0..material.dimension()).map(|j| subscripted("x", j + 1)).collect::<Vec<_>>(),
-        "valueName": material.value_name(),
-        "time": material.time_name(),
-        "group": problem.group_steps(),
-        "horizon": problem.horizon(),
-        "lastStep": material.last_step(),
+    let bytes: Vec<u8> = scene.values.all().flat_map(f32::to_le_bytes).collect();
+    let mut value = json!({
+        "names": scene.names.iter().map(|name| escape(name)).collect::<Vec<_>>(),
+        "titles": (0..scene.dimension()).map(|j| escape(&scene.title(j))).collect::<Vec<_>>(),
+        "valueName": scene.value_name(),
+        "time": scene.time_name(),
+        "group": scene.group_steps,
+        "horizon": scene.horizon,
+        "lastStep": scene.last_step(),
         "lower": range(|(lower, _)| lower),
         "upper": range(|(_, upper)| upper),
-        "cells": problem.grid().axes().iter().map(|axis| axis.cells()).collect::<Vec<_>>(),
-        "strides": problem.grid().strides(),
+        "cells": scene.grid.axes().iter().map(|axis| axis.cells()).collect::<Vec<_>>(),
+        "strides": scene.grid.strides(),
         "colours": (0..LEVELS).map(colour).collect::<Vec<_>>(),
         "firstLight": FIRST_LIGHT_LEVEL,
         "values": {"type": "f32", "data": BASE64.encode(&bytes)},
         "kinds": packed((0..cells).map(kind)),
-        "policy": policy(material),
-        "targets": targets(material),
-        "mean": material.noise_mean,
-        "ranges": ranges,
-        "goal": regions(problem.wanted(), material.dimension()),
-        "unsafe": regions(problem.unsafe_regions(), material.dimension()),
-        "threshold": problem.threshold().map(|threshold| threshold.to_f64()),
-        "runs": runs(material),
-        "start": material.start,
+        "policy": policy(scene),
+        "goal": regions(scene.wanted, scene.dimension()),
+        "unsafe": regions(scene.unsafe_, scene.dimension()),
+        "threshold": scene.threshold,
+        "runs": runs(scene),
+        "start": scene.start,
         "view": {
             "across": match view.across { Axis::Time => -1, Axis::State(j) => j as i64 },
             "up": view.up,
@@ -79,23 +86,55 @@ pub(super) fn embed(material: &Material<'_>, view: &View) -> Embedded {
             "step": view.step,
         },
     });
+    if let (Value::Object(value), Value::Object(fields)) = (&mut value, actions.fields) {
+        value.extend(fields);
+    }
     // Nothing in a script element may look like its end.
     Embedded { json: value.to_string().replace('<', "\\u003c"), left_out }
 }
 
-/// The targets of every cell by the steps left.
-fn policy(material: &Material<'_>) -> Value {
-    let cells = || (0..material.problem().grid().num_cells()).map(CellId);
+/// The actions of every cell by the steps left.
+fn policy(scene: &Scene<'_>) -> Value {
     let mut starts = vec![0];
-    for cell in cells() {
-        starts.push(starts[starts.len() - 1] + material.controller.entries(0, cell).len() as u32);
+    let mut all = vec![];
+    for cell in (0..scene.grid.num_cells()).map(CellId) {
+        all.extend(scene.actions.entries(cell));
+        starts.push(all.len() as u32);
     }
-    let entries = || cells().flat_map(|cell| material.controller.entries(0, cell));
     json!({
         "starts": packed(starts.into_iter()),
-        "left": packed(entries().map(|entry| u32::try_from(entry.steps_left).unwrap_or(u32::MAX))),
-        "target": packed(entries().map(|entry| entry.action)),
+        "left": packed(all.iter().map(|(left, _)| u32::try_from(*left).unwrap_or(u32::MAX))),
+        "target": packed(all.iter().map(|(_, action)| *action)),
     })
+}
+
+/// The targets that actions steer to, and which are enabled where.
+pub(super) fn steering(material: &Material<'_>) -> EmbeddedActions {
+    let ranges = ranges(material);
+    let left_out = match ranges {
+        None => vec!["which actions are enabled in each cell".into()],
+        Some(_) => vec![],
+    };
+    let fields = json!({"targets": targets(material), "mean": material.noise_mean, "ranges": ranges});
+    EmbeddedActions { fields, left_out }
+}
+
+/// The inputs, and where those of the policy lead.
+pub(super) fn inputs(material: &InputMaterial<'_>) -> EmbeddedActions {
+    let scene = &material.scene;
+    let mut bytes = vec![];
+    for cell in (0..scene.grid.num_cells()).map(CellId) {
+        for (_, action) in scene.actions.entries(cell) {
+            let to = scene.actions.successor(cell, action);
+            bytes.extend(to.iter().flat_map(|&x| (x as f32).to_le_bytes()));
+        }
+    }
+    let words = (0..material.run.problem.inputs().len() as u32).map(|input| scene.actions.words(input));
+    let successors = json!({"type": "f32", "data": BASE64.encode(&bytes)});
+    let fields = json!({
+        "targets": null, "ranges": null, "inputs": words.collect::<Vec<_>>(), "successors": successors
+    });
+    EmbeddedActions { fields, left_out: vec![] }
 }
 
 fn targets(material: &Material<'_>) -> Value {
@@ -134,8 +173,8 @@ fn regions(regions: &[Region], dimension: usize) -> Value {
     regions.iter().map(|region| json!((0..dimension).map(|j| sides(region, j)).collect::<Vec<_>>())).collect()
 }
 
-fn runs(material: &Material<'_>) -> Value {
-    let d = material.problem().group_steps() as f64;
+fn runs(scene: &Scene<'_>) -> Value {
+    let d = scene.group_steps as f64;
     let run = |trajectory: &crate::controller::Trajectory| {
         let points = trajectory.steps.iter().map(|step| {
             let time = std::iter::once(compact(step.step as f64 / d));
@@ -149,7 +188,7 @@ fn runs(material: &Material<'_>) -> Value {
             "asked": asked.map(|(i, _)| i).collect::<Vec<_>>(),
         })
     };
-    material.trajectories.iter().map(run).collect()
+    scene.trajectories.iter().map(run).collect()
 }
 
 /// Whole numbers in as few bytes as they need, little-endian.

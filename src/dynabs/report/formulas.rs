@@ -3,10 +3,11 @@
 use super::markup::escape;
 use super::material::Material;
 use super::numbers::{short, subscripted, tuple};
+use super::scene::Scene;
 use super::sides::sides;
 use crate::geometry::Polytope;
 use crate::linear_algebra::ExactMatrix;
-use crate::partition::Region;
+use crate::partition::{GridAxis, Region};
 use crate::system::LinearSystem;
 use crate::task::Aim;
 use imdp::numeric::to_f64;
@@ -46,23 +47,7 @@ pub(super) fn model(material: &Material<'_>) -> String {
             input_set(layers.abstract_input(), "u′", "U′")
         );
     }
-    let grid: Vec<_> = problem
-        .grid()
-        .axes()
-        .iter()
-        .enumerate()
-        .map(|(j, axis)| {
-            format!(
-                "{} ∈ [{}, {}) in {} cells of width {}",
-                subscripted("x", j + 1),
-                short(to_f64(axis.lower())),
-                short(to_f64(axis.upper())),
-                axis.cells(),
-                short(to_f64(axis.width()))
-            )
-        })
-        .collect();
-    text += &format!("<p>Partition: {}; everything outside counts as failed.</p>\n", grid.join(", "));
+    text += &partition(&material.scene);
     let steps = problem.horizon().map(|steps| steps * d as u64);
     let (what, wanted) = match (problem.objective().aim(), steps) {
         (Aim::Stay, Some(steps)) => (format!("stay in the safe region for {steps} steps"), "Safe region"),
@@ -71,8 +56,8 @@ pub(super) fn model(material: &Material<'_>) -> String {
         (_, None) => ("reach the goal at any time".to_owned(), "Goal"),
     };
     text += &format!("<p>Task: {what}, avoiding the unsafe region.</p>\n");
-    text += &boxes(wanted, problem.wanted());
-    text += &boxes("Unsafe region", problem.unsafe_regions());
+    text += &boxes(wanted, &material.scene.names, problem.wanted());
+    text += &boxes("Unsafe region", &material.scene.names, problem.unsafe_regions());
     let seed = problem.noise().seed().map_or(String::new(), |seed| format!(", drawn with seed {seed}"));
     let file = problem.noise().file().map_or(String::new(), |(name, _)| format!(", from {}", escape(name)));
     text += &format!(
@@ -82,6 +67,22 @@ pub(super) fn model(material: &Material<'_>) -> String {
         tuple(&material.noise_mean)
     );
     text
+}
+
+/// The cells.
+pub(super) fn partition(scene: &Scene<'_>) -> String {
+    let axis = |(axis, name): (&GridAxis, &String)| {
+        format!(
+            "{} ∈ [{}, {}) in {} cells of width {}",
+            name,
+            short(to_f64(axis.lower())),
+            short(to_f64(axis.upper())),
+            axis.cells(),
+            short(to_f64(axis.width()))
+        )
+    };
+    let axes: Vec<_> = scene.grid.axes().iter().zip(&scene.names).map(axis).collect();
+    format!("<p>Partition: {}; everything outside counts as failed.</p>\n", axes.join(", "))
 }
 
 /// `x⁺ = A x + B u + q + η` with the matrices written out.
@@ -120,7 +121,7 @@ fn is_zero(m: &ExactMatrix) -> bool {
 }
 
 /// `U` as intervals if it is a box, else as `G u ≤ g`.
-fn input_set(set: &Polytope, input: &str, name: &str) -> String {
+pub(super) fn input_set(set: &Polytope, input: &str, name: &str) -> String {
     if let Some(sides) = box_sides(set) {
         let interval = |(j, [lower, upper]): (usize, &[f64; 2])| {
             let (lower, upper) = (short(*lower), short(*upper));
@@ -160,14 +161,14 @@ fn eigenvalues(values: &[(f64, f64)]) -> String {
 }
 
 /// A region as a list of boxes.
-fn boxes(name: &str, regions: &[Region]) -> String {
+pub(super) fn boxes(name: &str, names: &[String], regions: &[Region]) -> String {
     if regions.is_empty() {
         return format!("<p>{name}: none.</p>\n");
     }
     let item = |region: &Region| {
         let side = |j: usize| {
             let (lower, upper) = sides(region, j);
-            let x = subscripted("x", j + 1);
+            let x = &names[j];
             match (lower.is_finite(), upper.is_finite()) {
                 (true, true) => Some(format!("{} ≤ {x} &lt; {}", short(lower), short(upper))),
                 (true, false) => Some(format!("{x} ≥ {}", short(lower))),

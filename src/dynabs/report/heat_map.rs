@@ -2,26 +2,26 @@
 
 use super::frame::Frame;
 use super::markup::{Plot, group};
-use super::material::Material;
 use super::numbers::{coordinate, short};
 use super::palette::{LEVELS, colour, level};
 use super::paths::{arrows, runs};
 use super::regions::{hatch, regions};
+use super::scene::Scene;
 use super::view::View;
 
 /// The size of the frame of the map.
 const SIZE: (f64, f64) = (560.0, 420.0);
 
 /// The value function over a plane, with regions, vector field and runs.
-pub(super) fn heat_map(material: &Material<'_>, view: &View) -> Plot {
+pub(super) fn heat_map(scene: &Scene<'_>, view: &View) -> Plot {
     let id = "map";
-    let frame = Frame::new(SIZE, view.range_across(material), material.range(view.up));
-    let (across, up) = view.names(material);
+    let frame = Frame::new(SIZE, view.range_across(scene), scene.range(view.up));
+    let (across, up) = view.names(scene);
     let inside = [
-        group("heat", &squares(material, view, &frame)),
-        group("regions", &regions(material, view, &frame, id)),
-        group("arrows", &arrows(material, view, &frame)),
-        group("runs", &runs(material, view, &frame)),
+        group("heat", &squares(scene, view, &frame)),
+        group("regions", &regions(scene, view, &frame, id)),
+        group("arrows", &arrows(scene, view, &frame)),
+        group("runs", &runs(scene, view, &frame)),
         group("pick", ""),
     ];
     let content = format!(
@@ -37,35 +37,35 @@ pub(super) fn heat_map(material: &Material<'_>, view: &View) -> Plot {
         id,
         width: 720.0,
         height: 484.0,
-        title: format!("{}: {} over {across} and {up}", material.problem().name(), material.value_name()),
-        description: description(material, view),
+        title: format!("{}: {} over {across} and {up}", scene.name, scene.value_name()),
+        description: description(scene, view),
         content,
     }
 }
 
 /// What a heat map shows, in words.
-fn description(material: &Material<'_>, view: &View) -> String {
-    let at = view.at(material, view.fixed());
+fn description(scene: &Scene<'_>, view: &View) -> String {
+    let at = view.at(scene, view.fixed());
     format!(
         "The {}{at}, from dark (0) to light (1); the unsafe region is hatched, the \
          goal outlined; arrows point from the centers of cells towards the mean of the next state; lines are {} \
          simulated runs.",
-        material.value_name(),
-        material.trajectories.len()
+        scene.value_name(),
+        scene.trajectories.len()
     )
 }
 
 /// One path per colour, neighbours in a row merged.
-fn squares(material: &Material<'_>, view: &View, frame: &Frame) -> String {
-    let (columns, rows) = view.size(material);
-    let (block_x, block_y) = view.blocks(material);
-    let faces = &material.faces()[view.up];
+fn squares(scene: &Scene<'_>, view: &View, frame: &Frame) -> String {
+    let (columns, rows) = view.size(scene);
+    let (block_x, block_y) = view.blocks(scene);
+    let faces = &scene.faces()[view.up];
     let mut paths = vec![String::new(); LEVELS];
     for j in (0..rows).step_by(block_y as usize) {
         let top = (j + block_y).min(rows);
         let (y0, y1) = (frame.y.at(faces[j as usize]), frame.y.at(faces[top as usize]));
         let mut add = |from: u32, to: u32, level: usize| {
-            let (x0, x1) = (view.face_across(material, from), view.face_across(material, to));
+            let (x0, x1) = (view.face_across(scene, from), view.face_across(scene, to));
             let (x0, x1) = (coordinate(frame.x.at(x0)), coordinate(frame.x.at(x1)));
             paths[level] += &format!("M{x0} {}H{x1}V{}H{x0}Z", coordinate(y0), coordinate(y1));
         };
@@ -73,8 +73,8 @@ fn squares(material: &Material<'_>, view: &View, frame: &Frame) -> String {
         for i in (0..columns).step_by(block_x as usize) {
             let right = (i + block_x).min(columns);
             let least = (i..right).flat_map(|i| (j..top).map(move |j| (i, j))).map(|(i, j)| {
-                let (cell, step) = view.cell(material, i, j);
-                material.values.at(step)[cell.index()]
+                let (cell, step) = view.cell(scene, i, j);
+                scene.values.at(step)[cell.index()]
             });
             let here = Some(level(least.fold(1.0, f32::min)));
             if here != open.1 {

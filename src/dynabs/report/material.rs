@@ -1,7 +1,9 @@
-//! What a report is made of.
+//! What a report of actions that are targets is made of.
 
+use super::numbers::{subscripted, tuple};
+use super::scene::{Scene, SceneActions, faces};
 use super::values::StepValues;
-use crate::controller::{Controller, Decision, Noise, Simulation, Tally, Trajectory};
+use crate::controller::{Controller, Noise, Simulation};
 use crate::partition::{CellId, CellKind};
 use crate::problem::{Problem, StepNoise};
 use crate::run::Run;
@@ -12,10 +14,7 @@ use imdp::solver::Answer;
 use std::time::Duration;
 
 /// Runs of unbounded tasks are given up after this many grouped steps.
-const MOST_STEPS: u64 = 2000;
-
-/// The most columns of a time axis of an unbounded task.
-const MOST_COLUMNS: usize = 60;
+pub(super) const MOST_STEPS: u64 = 2000;
 
 /// What to simulate for a report, and what else to show.
 #[derive(Clone, Debug)]
@@ -38,15 +37,9 @@ pub struct Material<'a> {
     pub(super) answer: &'a Answer,
     pub(super) controller: &'a Controller,
     pub(super) options: MaterialOptions,
-    pub(super) values: StepValues,
-    /// Where simulated runs start.
-    pub(super) start: Vec<f64>,
-    pub(super) noise: &'static str,
-    pub(super) tally: Tally,
-    pub(super) trajectories: Vec<Trajectory>,
     /// The mean of the samples of the grouped noise.
     pub(super) noise_mean: Vec<f64>,
-    faces: Vec<Vec<f64>>,
+    pub(super) scene: Scene<'a>,
 }
 
 impl<'a> Material<'a> {
@@ -59,7 +52,6 @@ impl<'a> Material<'a> {
         progress: &dyn Progress,
     ) -> Self {
         let problem = &run.problem;
-        let values = StepValues::new(run, answer);
         let start = problem
             .initial_state()
             .map(<[f64]>::to_vec)
@@ -72,81 +64,69 @@ impl<'a> Material<'a> {
         let tally = simulation.tally(&start, options.seed, options.runs, progress);
         let drawn = 0..options.drawn;
         let trajectories = drawn.map(|run| simulation.trajectory(&start, options.seed, run)).collect();
-        let faces = problem.grid().axes().iter();
-        let faces = faces.map(|axis| (0..=axis.cells()).map(|i| to_f64(&axis.face(i))).collect()).collect();
         let noise_mean = mean(problem);
-        Self {
-            run,
-            answer,
-            controller,
-            options,
-            values,
-            start,
+        let n = problem.grid().dimension();
+        let scene = Scene {
+            name: problem.name(),
+            grid: problem.grid(),
+            names: (1..=n).map(|j| subscripted("x", j)).collect(),
+            units: vec![None; n],
+            wanted: problem.wanted(),
+            unsafe_: problem.unsafe_regions(),
+            has_memory: false,
+            horizon: problem.horizon(),
+            group_steps: problem.group_steps(),
+            safety: problem.safety(),
+            threshold: problem.threshold().map(|threshold| threshold.to_f64()),
+            is_promised: run.abstraction.guarantee.confidence().is_some(),
+            values: StepValues::of_answer(run, answer),
+            start_is_given: problem.initial_state().is_some(),
+            start_cell: controller.cell(&start),
+            seed: options.seed,
             noise,
+            bound: controller.bound_at(&start),
+            start,
             tally,
             trajectories,
-            noise_mean,
-            faces,
-        }
+            actions: Box::new(Steering { run, controller, noise_mean: noise_mean.clone() }),
+            faces: faces(problem.grid()),
+        };
+        Self { run, answer, controller, options, noise_mean, scene }
     }
 
     pub(super) fn problem(&self) -> &'a Problem {
         &self.run.problem
     }
+}
 
-    pub(super) fn dimension(&self) -> usize {
-        self.faces.len()
+/// Actions that steer to targets.
+struct Steering<'a> {
+    run: &'a Run,
+    controller: &'a Controller,
+    noise_mean: Vec<f64>,
+}
+
+impl SceneActions for Steering<'_> {
+    fn kind(&self, cell: CellId) -> CellKind {
+        self.controller.kind(cell)
     }
 
-    /// The faces of the cells in every dimension.
-    pub(super) fn faces(&self) -> &[Vec<f64>] {
-        &self.faces
+    fn entries(&self, cell: CellId) -> Vec<(u64, u32)> {
+        self.controller.entries(0, cell).iter().map(|entry| (entry.steps_left, entry.action)).collect()
     }
 
-    /// The sides of the partition in one dimension.
-    pub(super) fn range(&self, dimension: usize) -> (f64, f64) {
-        let faces = &self.faces[dimension];
-        (faces[0], faces[faces.len() - 1])
-    }
-
-    /// The center of a cell in one dimension.
-    pub(super) fn center(&self, dimension: usize, index: u32) -> f64 {
-        let faces = &self.faces[dimension];
-        (faces[index as usize] + faces[index as usize + 1]) / 2.0
-    }
-
-    /// The last grouped step of a time axis.
-    pub(super) fn last_step(&self) -> usize {
-        if self.problem().horizon().is_some() {
-            return self.values.last_step();
-        }
-        let longest = self.trajectories.iter().map(|trajectory| trajectory.outcome.steps).max();
-        (longest.unwrap_or(1).max(1) as usize).min(MOST_COLUMNS)
-    }
-
-    /// What values are called: in reference mode nothing is promised.
-    pub(super) fn value_name(&self) -> &'static str {
-        if self.run.abstraction.guarantee.confidence().is_some() {
-            "promised probability"
-        } else {
-            "value (nothing is promised)"
-        }
-    }
-
-    pub(super) fn time_name(&self) -> String {
-        match self.problem().group_steps() {
-            1 => "step k".to_owned(),
-            d => format!("grouped step k ({d} steps each)"),
-        }
-    }
-
-    /// The mean of the state after the action of `cell` at `step`; `None` if there is none.
-    pub(super) fn mean_successor(&self, cell: CellId, step: usize) -> Option<Vec<f64>> {
-        let Decision::Act { action } = self.controller.decide_in(cell, step as u64) else {
-            return None;
-        };
+    fn successor(&self, _: CellId, action: u32) -> Vec<f64> {
         let point = self.controller.action(action);
-        Some(point.iter().zip(&self.noise_mean).map(|(d, mean)| d + mean).collect())
+        point.iter().zip(&self.noise_mean).map(|(d, mean)| d + mean).collect()
+    }
+
+    fn words(&self, action: u32) -> String {
+        format!("steer to d = {}", tuple(self.controller.action(action)))
+    }
+
+    fn enabled(&self, cell: CellId) -> usize {
+        let abstraction = &self.run.abstraction;
+        abstraction.model.choices().rows(abstraction.state_of_cell[cell.index()]).count()
     }
 }
 

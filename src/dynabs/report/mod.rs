@@ -8,6 +8,8 @@ mod data;
 mod formulas;
 mod frame;
 mod heat_map;
+mod input_formulas;
+mod input_material;
 mod markup;
 mod material;
 mod numbers;
@@ -17,6 +19,7 @@ mod paths;
 mod picked;
 mod regions;
 mod results;
+mod scene;
 mod section;
 mod sides;
 mod tables;
@@ -24,11 +27,13 @@ mod values;
 mod view;
 mod words;
 
+pub use input_material::InputMaterial;
 pub use material::{Material, MaterialOptions};
-pub use page::{ReportError, page};
+pub use page::{ReportError, input_page, page};
 pub use results::{CROSS_CHECK, CrossCheckError, read_cross_checks};
 
 use heat_map::heat_map;
+use scene::Scene;
 use section::section;
 
 /// A plot as an SVG file of its own.
@@ -42,9 +47,18 @@ pub struct Picture {
 
 /// The plots of the page, as files: the value function with vector field and runs, and its cross-section.
 pub fn pictures(material: &Material<'_>) -> Vec<Picture> {
-    let view = view::View::first(material);
+    of_scene(&material.scene)
+}
+
+/// The same for a run whose actions are inputs.
+pub fn input_pictures(material: &InputMaterial<'_>) -> Vec<Picture> {
+    of_scene(&material.scene)
+}
+
+fn of_scene(scene: &Scene<'_>) -> Vec<Picture> {
+    let view = view::View::first(scene);
     vec![
-        Picture { name: "value", svg: heat_map(material, &view).standalone() },
-        Picture { name: "section", svg: section(material, &view).standalone() },
+        Picture { name: "value", svg: heat_map(scene, &view).standalone() },
+        Picture { name: "section", svg: section(scene, &view).standalone() },
     ]
 }

@@ -1,15 +1,20 @@
 //! The page.
 
-use super::data::embed;
+use super::data::{Embedded, embed, inputs, steering};
 use super::heat_map::heat_map;
+use super::input_material::InputMaterial;
 use super::markup::{PLOT_STYLE, escape};
 use super::material::Material;
 use super::picked::facts;
+use super::scene::Scene;
 use super::section::section;
 use super::view::View;
-use super::{formulas, tables, words};
+use super::words::Promise;
+use super::{formulas, input_formulas, tables, words};
 use crate::rendered::ended;
+use crate::run::Manifest;
 use askama::Template;
+use imdp::engines::CrossCheckFile;
 
 const STYLE: &str = include_str!("../templates/report.css");
 const SCRIPT: &str = include_str!("../templates/report.js");
@@ -38,6 +43,7 @@ struct Page {
     warnings: String,
     map: String,
     value_name: String,
+    leads: String,
     about_runs: String,
     facts: String,
     section: String,
@@ -48,54 +54,132 @@ struct Page {
     budget: String,
     cross_checks: String,
     provenance: String,
+    method: String,
     data: String,
     script: String,
 }
+
+/// What is only said of one kind of actions.
+struct Specifics<'a> {
+    description: &'a str,
+    warnings: String,
+    guarantee: String,
+    leads: &'static str,
+    embedded: Embedded,
+    model: String,
+    sizes: String,
+    cross_checks: Option<&'a CrossCheckFile>,
+    method: &'static str,
+}
+
+/// Where arrows of targets point.
+const TO_TARGETS: &str = "target plus mean noise";
+/// Where arrows of inputs point.
+const TO_IMAGES: &str = "what the dynamics make of the center, plus mean noise";
+
+const METHOD: &str = " The method is that of Thom Badings, Licio Romao, Alessandro Abate, Nils Jansen: <cite>A
+Stability-Based Abstraction Framework for Reach-Avoid Control of Stochastic Dynamical Systems with Unknown Noise
+Distributions</cite>, European Control Conference 2024.";
 
 /// The whole report as one HTML page that loads nothing.
 ///
 /// # Errors
 /// [`ReportError`] if the embedded template is broken.
 pub fn page(material: &Material<'_>) -> Result<String, ReportError> {
-    let (run, problem) = (material.run, material.problem());
-    let view = View::first(material);
-    let embedded = embed(material, &view);
-    let description = run.document.description().unwrap_or_default();
-    let left_out = match &embedded.left_out[..] {
+    let (run, scene) = (material.run, &material.scene);
+    let view = View::first(scene);
+    let promise = Promise {
+        guarantee: material.controller.guarantee(),
+        sentences: material.controller.promise(),
+        bound: material.controller.promised().bound,
+        threshold: scene.threshold.map(|threshold| (threshold, material.answer.satisfied())),
+        has_upper: false,
+    };
+    let specifics = Specifics {
+        description: run.document.description().unwrap_or_default(),
+        warnings: words::warnings(&run.manifest),
+        guarantee: words::guarantee(&promise),
+        leads: TO_TARGETS,
+        embedded: embed(scene, &view, || steering(material)),
+        model: formulas::model(material),
+        sizes: tables::sizes(material),
+        cross_checks: material.options.cross_checks.as_ref(),
+        method: METHOD,
+    };
+    rendered(scene, &view, &run.manifest, specifics)
+}
+
+/// The same for a run whose actions are inputs.
+///
+/// # Errors
+/// [`ReportError`] if the embedded template is broken.
+pub fn input_page(material: &InputMaterial<'_>) -> Result<String, ReportError> {
+    let (run, scene) = (material.run, &material.scene);
+    let view = View::first(scene);
+    let promise = Promise {
+        guarantee: material.controller.guarantee(),
+        sentences: material.controller.promise(),
+        bound: material.controller.promised().bound,
+        threshold: scene.threshold.map(|threshold| (threshold, material.satisfied)),
+        has_upper: true,
+    };
+    let specifics = Specifics {
+        description: run.document.description().unwrap_or_default(),
+        warnings: words::warnings(&run.manifest),
+        guarantee: words::guarantee(&promise),
+        leads: TO_IMAGES,
+        embedded: embed(scene, &view, || inputs(material)),
+        model: input_formulas::model(material),
+        sizes: tables::input_sizes(material),
+        cross_checks: material.options.cross_checks.as_ref(),
+        method: "",
+    };
+    rendered(scene, &view, &run.manifest, specifics)
+}
+
+fn rendered(
+    scene: &Scene<'_>,
+    view: &View,
+    manifest: &Manifest,
+    specifics: Specifics<'_>,
+) -> Result<String, ReportError> {
+    let left_out = match &specifics.embedded.left_out[..] {
         [] => String::new(),
         list => format!("<p>Left out of this page for its size: {}.</p>\n", escape(&list.join("; "))),
     };
     let page = Page {
-        name: escape(problem.name()),
-        description: escape(description),
-        mode: escape(&run.manifest.mode),
+        name: escape(scene.name),
+        description: escape(specifics.description),
+        mode: escape(&manifest.mode),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         style: format!("{PLOT_STYLE}{STYLE}"),
-        guarantee: words::guarantee(material),
-        warnings: words::warnings(run),
-        map: heat_map(material, &view).inline(),
-        value_name: material.value_name().to_owned(),
-        about_runs: words::about_runs(material),
-        facts: picked_cell(material),
-        section: section(material, &view).inline(),
+        guarantee: specifics.guarantee,
+        warnings: specifics.warnings,
+        map: heat_map(scene, view).inline(),
+        value_name: scene.value_name().to_owned(),
+        leads: specifics.leads.to_owned(),
+        about_runs: words::about_runs(scene),
+        facts: picked_cell(scene),
+        section: section(scene, view).inline(),
         left_out,
-        simulation: tables::simulation(material),
-        model: formulas::model(material),
-        sizes: tables::sizes(material),
-        budget: tables::budget(run),
-        cross_checks: tables::cross_checks(material.options.cross_checks.as_ref()),
-        provenance: tables::provenance(run),
-        data: embedded.json,
+        simulation: tables::simulation(scene),
+        model: specifics.model,
+        sizes: specifics.sizes,
+        budget: tables::budget(manifest),
+        cross_checks: tables::cross_checks(specifics.cross_checks),
+        provenance: tables::provenance(manifest),
+        method: specifics.method.to_owned(),
+        data: specifics.embedded.json,
         script: SCRIPT.to_owned(),
     };
     page.render().map(ended).map_err(|error| ReportError::Template { found: error.to_string() })
 }
 
 /// The facts about the cell where runs start.
-fn picked_cell(material: &Material<'_>) -> String {
-    let Some(cell) = material.controller.cell(&material.start) else { return String::new() };
+fn picked_cell(scene: &Scene<'_>) -> String {
+    let Some(cell) = scene.start_cell else { return String::new() };
     let fact = |(id, name, value): &(&str, &str, String)| {
         format!("<div><dt>{}</dt><dd id=\"fact-{id}\">{}</dd></div>\n", escape(name), escape(value))
     };
-    facts(material, cell, 0).iter().map(fact).collect()
+    facts(scene, cell, 0).iter().map(fact).collect()
 }

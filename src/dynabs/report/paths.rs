@@ -1,9 +1,9 @@
 //! The closed loop in a plane: the vector field, and simulated runs.
 
 use super::frame::Frame;
-use super::material::Material;
 use super::numbers::coordinate;
 use super::palette::{FIRST_LIGHT_LEVEL, level};
+use super::scene::Scene;
 use super::view::{Axis, View};
 use crate::controller::{Decision, Trajectory};
 
@@ -11,23 +11,23 @@ use crate::controller::{Decision, Trajectory};
 const MOST_ARROWS: u32 = 20;
 
 /// An arrow from the center of every few cells towards the mean of the next state, shortened to its place.
-pub(super) fn arrows(material: &Material<'_>, view: &View, frame: &Frame) -> String {
-    let (columns, rows) = view.size(material);
+pub(super) fn arrows(scene: &Scene<'_>, view: &View, frame: &Frame) -> String {
+    let (columns, rows) = view.size(scene);
     let (stride_x, stride_y) = (columns.div_ceil(MOST_ARROWS), rows.div_ceil(MOST_ARROWS));
     let place = (frame.width / f64::from(columns) * f64::from(stride_x))
         .min(frame.height / f64::from(rows) * f64::from(stride_y));
     let mut paths = [String::new(), String::new()];
     for i in (stride_x / 2..columns).step_by(stride_x as usize) {
         for j in (stride_y / 2..rows).step_by(stride_y as usize) {
-            let (cell, step) = view.cell(material, i, j);
-            let Some(next) = material.mean_successor(cell, step) else { continue };
+            let (cell, step) = view.cell(scene, i, j);
+            let Some(next) = scene.mean_successor(cell, step) else { continue };
             let (from, to) = match view.across {
                 Axis::Time => (f64::from(i), f64::from(i) + 1.0),
-                Axis::State(dimension) => (material.center(dimension, i), next[dimension]),
+                Axis::State(dimension) => (scene.center(dimension, i), next[dimension]),
             };
-            let (x, y) = (frame.x.at(from), frame.y.at(material.center(view.up, j)));
+            let (x, y) = (frame.x.at(from), frame.y.at(scene.center(view.up, j)));
             let (dx, dy) = (frame.x.at(to) - x, frame.y.at(next[view.up]) - y);
-            let light = usize::from(level(material.values.at(step)[cell.index()]) >= FIRST_LIGHT_LEVEL);
+            let light = usize::from(level(scene.values.at(step)[cell.index()]) >= FIRST_LIGHT_LEVEL);
             paths[light] += &arrow((x, y), (dx, dy), 0.85 * place);
         }
     }
@@ -57,10 +57,10 @@ fn arrow((x, y): (f64, f64), (dx, dy): (f64, f64), most: f64) -> String {
 }
 
 /// The runs: lines through the grouped instants, the failed ones last and so on top.
-pub(super) fn runs(material: &Material<'_>, view: &View, frame: &Frame) -> String {
-    let d = material.problem().group_steps() as f64;
+pub(super) fn runs(scene: &Scene<'_>, view: &View, frame: &Frame) -> String {
+    let d = scene.group_steps as f64;
     let mut drawn = [String::new(), String::new()];
-    for trajectory in &material.trajectories {
+    for trajectory in &scene.trajectories {
         let pair = |step: u64, state: &[f64]| {
             let across = match view.across {
                 Axis::Time => step as f64 / d,
@@ -81,8 +81,8 @@ pub(super) fn runs(material: &Material<'_>, view: &View, frame: &Frame) -> Strin
     }
     let text = drawn.concat();
     let start: Vec<_> = match view.across {
-        Axis::Time => vec![0.0, material.start[view.up]],
-        Axis::State(dimension) => vec![material.start[dimension], material.start[view.up]],
+        Axis::Time => vec![0.0, scene.start[view.up]],
+        Axis::State(dimension) => vec![scene.start[dimension], scene.start[view.up]],
     };
     text + &format!(
         "<circle class=\"start\" cx=\"{}\" cy=\"{}\" r=\"4.5\"/>",

@@ -1,19 +1,17 @@
 //! Goal and unsafe regions in a plane.
 
 use super::frame::{Frame, Scale};
-use super::material::Material;
 use super::numbers::coordinate;
+use super::scene::Scene;
 use super::sides::sides;
 use super::view::{Axis, View};
 use crate::partition::Region;
 
 /// Both regions where they meet the plane: rectangles, outlined as unions.
-pub(super) fn regions(material: &Material<'_>, view: &View, frame: &Frame, id: &str) -> String {
-    let problem = material.problem();
+pub(super) fn regions(scene: &Scene<'_>, view: &View, frame: &Frame, id: &str) -> String {
     let mut text = String::new();
-    for (class, list) in [("unsafe", problem.unsafe_regions()), ("goal", problem.wanted())] {
-        let boxes: String =
-            list.iter().filter_map(|region| rectangle(material, view, frame, region)).collect();
+    for (class, list) in [("unsafe", scene.unsafe_), ("goal", scene.wanted)] {
+        let boxes: String = list.iter().filter_map(|region| rectangle(scene, view, frame, region)).collect();
         if boxes.is_empty() {
             continue;
         }
@@ -36,8 +34,8 @@ pub(super) fn hatch(id: &str) -> String {
 }
 
 /// The part of a region in the plane, as a path; `None` if it is elsewhere.
-fn rectangle(material: &Material<'_>, view: &View, frame: &Frame, region: &Region) -> Option<String> {
-    if !view.fixed().all(|j| view.meets(material, region, j)) {
+fn rectangle(scene: &Scene<'_>, view: &View, frame: &Frame, region: &Region) -> Option<String> {
+    if !view.fixed().all(|j| view.meets(scene, region, j)) {
         return None;
     }
     let across = match view.across {

@@ -2,9 +2,9 @@
 
 use super::frame::Frame;
 use super::markup::{Plot, group};
-use super::material::Material;
-use super::numbers::{coordinate, subscripted};
+use super::numbers::coordinate;
 use super::regions::hatch;
+use super::scene::Scene;
 use super::sides::sides;
 use super::view::{Axis, View};
 use crate::partition::Region;
@@ -13,37 +13,37 @@ use crate::partition::Region;
 const SIZE: (f64, f64) = (632.0, 220.0);
 
 /// The value through the plane's cell, along the plane's first dimension of the state.
-pub(super) fn section(material: &Material<'_>, view: &View) -> Plot {
+pub(super) fn section(scene: &Scene<'_>, view: &View) -> Plot {
     let id = "section";
     let along = match view.across {
         Axis::State(j) => j,
         Axis::Time => view.up,
     };
-    let frame = Frame::new(SIZE, material.range(along), (0.0, 1.05));
-    let name = subscripted("x", along + 1);
+    let frame = Frame::new(SIZE, scene.range(along), (0.0, 1.05));
+    let name = scene.names[along].clone();
     let content = format!(
         "<defs>{}{}</defs>\n<g clip-path=\"url(#{id}-clip)\">\n{}{}</g>\n{}",
         frame.clip(id),
         hatch(id),
-        group("regions", &bands(material, view, along, &frame)),
-        group("curve", &curve(material, view, along, &frame)),
-        group("axes", &frame.axes(&name, material.value_name()))
+        group("regions", &bands(scene, view, along, &frame)),
+        group("curve", &curve(scene, view, along, &frame)),
+        group("axes", &frame.axes(&scene.title(along), scene.value_name()))
     );
-    let at = view.at(material, (0..material.dimension()).filter(|&j| j != along));
+    let at = view.at(scene, (0..scene.dimension()).filter(|&j| j != along));
     Plot {
         id,
         width: 720.0,
         height: 284.0,
-        title: format!("{}: {} along {name}{at}", material.problem().name(), material.value_name()),
+        title: format!("{}: {} along {name}{at}", scene.name, scene.value_name()),
         description: "A step function, constant in every cell; goal and unsafe region are bands.".into(),
         content,
     }
 }
 
 /// The parts of the line that lie in the goal or the unsafe region.
-fn bands(material: &Material<'_>, view: &View, along: usize, frame: &Frame) -> String {
+fn bands(scene: &Scene<'_>, view: &View, along: usize, frame: &Frame) -> String {
     let on_line = |region: &&Region| {
-        (0..material.dimension()).filter(|&j| j != along).all(|j| view.meets(material, region, j))
+        (0..scene.dimension()).filter(|&j| j != along).all(|j| view.meets(scene, region, j))
     };
     let bottom = frame.top + frame.height;
     let path = |list: &[Region]| -> String {
@@ -55,8 +55,7 @@ fn bands(material: &Material<'_>, view: &View, along: usize, frame: &Frame) -> S
         };
         list.iter().filter(on_line).map(band).collect()
     };
-    let problem = material.problem();
-    let (avoid, goal) = (path(problem.unsafe_regions()), path(problem.wanted()));
+    let (avoid, goal) = (path(scene.unsafe_), path(scene.wanted));
     let mut text = String::new();
     if !avoid.is_empty() {
         text += &format!("<path fill=\"url(#section-hatch)\" d=\"{avoid}\"/>");
@@ -68,15 +67,15 @@ fn bands(material: &Material<'_>, view: &View, along: usize, frame: &Frame) -> S
 }
 
 /// The values as a step function, and the threshold if there is one.
-fn curve(material: &Material<'_>, view: &View, along: usize, frame: &Frame) -> String {
-    let values = material.values.at(view.step);
+fn curve(scene: &Scene<'_>, view: &View, along: usize, frame: &Frame) -> String {
+    let values = scene.values.at(view.step);
     let mut coordinates = view.slice.clone();
-    let faces = &material.faces()[along];
+    let faces = &scene.faces()[along];
     let cells = faces.len() - 1;
     let (mut d, mut before) = (String::new(), String::new());
     for (i, &face) in faces[..cells].iter().enumerate() {
         coordinates[along] = i as u32;
-        let value = values[material.problem().grid().cell(&coordinates).index()];
+        let value = values[scene.grid.cell(&coordinates).index()];
         let y = coordinate(frame.y.at(f64::from(value)));
         match i {
             0 => d += &format!("M{} {y}", frame.left),
@@ -86,8 +85,8 @@ fn curve(material: &Material<'_>, view: &View, along: usize, frame: &Frame) -> S
         before = y;
     }
     d += &format!("H{}", coordinate(frame.x.at(faces[cells])));
-    let threshold = material.problem().threshold().map_or(String::new(), |threshold| {
-        let y = coordinate(frame.y.at(threshold.to_f64()));
+    let threshold = scene.threshold.map_or(String::new(), |threshold| {
+        let y = coordinate(frame.y.at(threshold));
         format!("<path class=\"threshold\" d=\"M{} {y}h{}\"/>", frame.left, frame.width)
     });
     format!("{threshold}<path class=\"value\" d=\"{d}\"/>")

@@ -1,12 +1,15 @@
 //! Tables: simulation, sizes, times, budget, other engines, files.
 
+use super::input_material::InputMaterial;
 use super::markup::{escape, table};
-use super::material::Material;
+use super::material::{Material, MaterialOptions};
 use super::numbers::{short, tuple};
+use super::scene::Scene;
 use crate::guarantee::Evidence;
-use crate::run::Run;
+use crate::run::Manifest;
 use crate::task::Safety;
 use imdp::engines::CrossCheckFile;
+use imdp::numeric::{round_decimal_up, shortest_decimal};
 
 /// A number with thin spaces between groups of three digits.
 fn count(n: u64) -> String {
@@ -23,12 +26,12 @@ fn row(cells: &[&str]) -> Vec<String> {
 }
 
 /// How often simulated runs did what.
-pub(super) fn simulation(material: &Material<'_>) -> String {
-    let tally = &material.tally;
+pub(super) fn simulation(scene: &Scene<'_>) -> String {
+    let tally = &scene.tally;
     if tally.runs == 0 {
         return "<p>Nothing was simulated.</p>\n".to_owned();
     }
-    let frequency = tally.satisfaction(material.problem().safety(), 0.01);
+    let frequency = tally.satisfaction(scene.safety, 0.01);
     let ends = [
         ("reached a goal cell", tally.reached),
         ("met the unsafe region (in a cell)", tally.r#unsafe),
@@ -38,7 +41,7 @@ pub(super) fn simulation(material: &Material<'_>) -> String {
         ("were given up", tally.unfinished),
     ];
     let share = |n: u64| short(n as f64 / tally.runs as f64);
-    let (grouped, safety) = (material.problem().group_steps() > 1, material.problem().safety());
+    let (grouped, safety) = (scene.group_steps > 1, scene.safety);
     let mut rows = vec![];
     if grouped {
         let [every, instants] = [tally.satisfied, tally.satisfied_at_instants];
@@ -59,11 +62,11 @@ pub(super) fn simulation(material: &Material<'_>) -> String {
     let caption = format!(
         "{} runs from x = {} under {}, seed {}",
         count(tally.runs),
-        tuple(&material.start),
-        material.noise,
-        material.options.seed
+        tuple(&scene.start),
+        scene.noise,
+        scene.seed
     );
-    let bound = material.controller.bound_at(&material.start);
+    let bound = scene.bound;
     let word = if frequency.contradicts(bound) { "contradicts" } else { "does not contradict" };
     format!(
         "<p>The share of runs that satisfied the task is {:.4}, so that its probability lies in [{:.4}, {:.4}] with \
@@ -79,11 +82,8 @@ pub(super) fn simulation(material: &Material<'_>) -> String {
 /// What was built and how long it took here.
 pub(super) fn sizes(material: &Material<'_>) -> String {
     let manifest = &material.run.manifest;
-    let grid = material.problem().grid();
-    let per_axis: Vec<_> = grid.axes().iter().map(|axis| axis.cells().to_string()).collect();
-    let factors = if per_axis.len() > 1 { per_axis.join(" × ") + " = " } else { String::new() };
     let mut rows = vec![
-        row(&["cells", &(factors + &count(u64::from(grid.num_cells())))]),
+        row(&["cells", &cells(&material.scene)]),
         row(&["targets", &count(material.run.abstraction.targets.len() as u64)]),
         row(&["states", &count(manifest.states)]),
         row(&["choices", &count(manifest.choices)]),
@@ -99,15 +99,48 @@ pub(super) fn sizes(material: &Material<'_>) -> String {
             ),
         ]),
     ];
-    let times = material.options.times.iter();
-    rows.extend(times.map(|(phase, time)| row(&[phase, &format!("{:.3} s", time.as_secs_f64())])));
-    let property = format!("<p>Asked: <code>{}</code></p>\n", escape(&manifest.property));
-    property + &table("Sizes and times of this report", &[], &rows)
+    rows.extend(times(&material.options));
+    asked(manifest) + &table("Sizes and times of this report", &[], &rows)
+}
+
+/// The same where actions are inputs.
+pub(super) fn input_sizes(material: &InputMaterial<'_>) -> String {
+    let InputMaterial { run, solution, .. } = material;
+    let by_axis = |numbers: &[u32]| numbers.iter().map(u32::to_string).collect::<Vec<_>>().join(" × ");
+    let mut rows = vec![
+        row(&["cells", &cells(&material.scene)]),
+        row(&["sub-cells of a cell", &by_axis(&run.abstraction.resolution)]),
+        row(&["inputs", &count(run.problem.inputs().len() as u64)]),
+        row(&["pairs of a cell and an input", &count(run.abstraction.num_choices() as u64)]),
+        row(&["noise samples", &count(run.manifest.samples)]),
+        row(&["solver", &format!("{}, {} steps", solution.status, solution.iterations)]),
+    ];
+    rows.extend(times(&material.options));
+    let bounds = format!(
+        "<p>At the start the value lies in [{}, {}]: no controller with these inputs is worth more.</p>\n",
+        crate::guarantee::lower_bound_text(material.scene.bound),
+        shortest_decimal(round_decimal_up(material.upper, 6))
+    );
+    bounds + &asked(&run.manifest) + &table("Sizes and times of this report", &[], &rows)
+}
+
+fn cells(scene: &Scene<'_>) -> String {
+    let per_axis: Vec<_> = scene.grid.axes().iter().map(|axis| axis.cells().to_string()).collect();
+    let factors = if per_axis.len() > 1 { per_axis.join(" × ") + " = " } else { String::new() };
+    factors + &count(u64::from(scene.grid.num_cells()))
+}
+
+fn times(options: &MaterialOptions) -> impl Iterator<Item = Vec<String>> + '_ {
+    options.times.iter().map(|(phase, time)| row(&[phase, &format!("{:.3} s", time.as_secs_f64())]))
+}
+
+fn asked(manifest: &Manifest) -> String {
+    format!("<p>Asked: <code>{}</code></p>\n", escape(&manifest.property))
 }
 
 /// What the failure probability was spent on.
-pub(super) fn budget(run: &Run) -> String {
-    let samples = match &run.manifest.guarantee.evidence {
+pub(super) fn budget(manifest: &Manifest) -> String {
+    let samples = match &manifest.guarantee.evidence {
         Evidence::Samples(samples) => samples,
         Evidence::Known { .. } => {
             return "<p>Known noise needs no budget: its masses are certain.</p>\n".into();
@@ -166,8 +199,7 @@ pub(super) fn cross_checks(results: Option<&CrossCheckFile>) -> String {
 }
 
 /// What was read, and where this page comes from.
-pub(super) fn provenance(run: &Run) -> String {
-    let manifest = &run.manifest;
+pub(super) fn provenance(manifest: &Manifest) -> String {
     let inputs = manifest.inputs.iter().map(|file| ("read", &file.name, &file.sha256));
     let outputs = manifest.outputs.iter().map(|file| ("written", &file.name, &file.sha256));
     let rows: Vec<_> = inputs

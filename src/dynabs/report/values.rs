@@ -1,5 +1,6 @@
 //! The value function at every step that is shown.
 
+use crate::landing::LandingSolution;
 use crate::run::Run;
 use imdp::solver::Answer;
 
@@ -12,12 +13,19 @@ pub(super) struct StepValues {
 
 impl StepValues {
     /// The values of an answer and of the earlier steps that came with it.
-    pub(super) fn new(run: &Run, answer: &Answer) -> Self {
+    pub(super) fn of_answer(run: &Run, answer: &Answer) -> Self {
         let mut by_step = vec![of_cells(run, &answer.values.lower)];
         if !answer.query.complement {
             by_step.extend(answer.solution.history.iter().map(|values| of_cells(run, values)));
         }
         Self { by_step }
+    }
+
+    /// The values on a lattice, and of the earlier steps that came with them.
+    pub(super) fn of_lattice(solution: &LandingSolution) -> Self {
+        let rounded = |values: &Vec<f64>| values.iter().map(|&value| rounded_down(value)).collect();
+        let fewer = solution.history.iter().rev().skip(1);
+        Self { by_step: std::iter::once(&solution.values.lower).chain(fewer).map(rounded).collect() }
     }
 
     /// The last step that is kept.

@@ -1,7 +1,7 @@
 //! What a plot shows: two axes, a slice of the other dimensions, a step.
 
-use super::material::Material;
-use super::numbers::{short, subscripted};
+use super::numbers::short;
+use super::scene::Scene;
 use super::sides::sides;
 use crate::partition::{CellId, Region};
 
@@ -30,19 +30,19 @@ pub(super) struct View {
 
 impl View {
     /// What is shown at first, and on paper: the plane through the start, or the only dimension over time.
-    pub(super) fn first(material: &Material<'_>) -> Self {
-        let slice = match material.controller.cell(&material.start) {
-            Some(cell) => material.problem().grid().coordinates(cell),
-            None => vec![0; material.dimension()],
+    pub(super) fn first(scene: &Scene<'_>) -> Self {
+        let slice = match scene.start_cell {
+            Some(cell) => scene.grid.coordinates(cell),
+            None => vec![0; scene.dimension()],
         };
-        match material.dimension() {
+        match scene.dimension() {
             1 => Self { across: Axis::Time, up: 0, slice, step: 0 },
             _ => Self { across: Axis::State(0), up: 1, slice, step: 0 },
         }
     }
 
     /// The cell at column `i` and row `j`, and the step that it is looked at.
-    pub(super) fn cell(&self, material: &Material<'_>, i: u32, j: u32) -> (CellId, usize) {
+    pub(super) fn cell(&self, scene: &Scene<'_>, i: u32, j: u32) -> (CellId, usize) {
         let mut coordinates = self.slice.clone();
         coordinates[self.up] = j;
         let step = match self.across {
@@ -52,62 +52,61 @@ impl View {
                 self.step
             }
         };
-        (material.problem().grid().cell(&coordinates), step)
+        (scene.grid.cell(&coordinates), step)
     }
 
     /// The numbers of columns and rows.
-    pub(super) fn size(&self, material: &Material<'_>) -> (u32, u32) {
-        let cells = |j: usize| material.problem().grid().axes()[j].cells();
+    pub(super) fn size(&self, scene: &Scene<'_>) -> (u32, u32) {
+        let cells = |j: usize| scene.grid.axes()[j].cells();
         let columns = match self.across {
-            Axis::Time => material.last_step() as u32 + 1,
+            Axis::Time => scene.last_step() as u32 + 1,
             Axis::State(j) => cells(j),
         };
         (columns, cells(self.up))
     }
 
     /// How many columns and rows one square of a heat map stands for.
-    pub(super) fn blocks(&self, material: &Material<'_>) -> (u32, u32) {
-        let (columns, rows) = self.size(material);
+    pub(super) fn blocks(&self, scene: &Scene<'_>) -> (u32, u32) {
+        let (columns, rows) = self.size(scene);
         (columns.div_ceil(MOST_SQUARES), rows.div_ceil(MOST_SQUARES))
     }
 
     /// What is across, from where to where.
-    pub(super) fn range_across(&self, material: &Material<'_>) -> (f64, f64) {
+    pub(super) fn range_across(&self, scene: &Scene<'_>) -> (f64, f64) {
         match self.across {
-            Axis::Time => (-0.5, material.last_step() as f64 + 0.5),
-            Axis::State(j) => material.range(j),
+            Axis::Time => (-0.5, scene.last_step() as f64 + 0.5),
+            Axis::State(j) => scene.range(j),
         }
     }
 
     /// The face before column `i`.
-    pub(super) fn face_across(&self, material: &Material<'_>, i: u32) -> f64 {
+    pub(super) fn face_across(&self, scene: &Scene<'_>, i: u32) -> f64 {
         match self.across {
             Axis::Time => f64::from(i) - 0.5,
-            Axis::State(j) => material.faces()[j][i as usize],
+            Axis::State(j) => scene.faces()[j][i as usize],
         }
     }
 
     /// The names of the axes.
-    pub(super) fn names(&self, material: &Material<'_>) -> (String, String) {
+    pub(super) fn names(&self, scene: &Scene<'_>) -> (String, String) {
         let across = match self.across {
-            Axis::Time => material.time_name(),
-            Axis::State(j) => subscripted("x", j + 1),
+            Axis::Time => scene.time_name(),
+            Axis::State(j) => scene.title(j),
         };
-        (across, subscripted("x", self.up + 1))
+        (across, scene.title(self.up))
     }
 
     /// ` at x₃ = 1, …`: where the center of the cell lies in some dimensions; nothing for none.
-    pub(super) fn at(&self, material: &Material<'_>, dimensions: impl Iterator<Item = usize>) -> String {
-        let center =
-            |j: usize| format!("{} = {}", subscripted("x", j + 1), short(material.center(j, self.slice[j])));
+    pub(super) fn at(&self, scene: &Scene<'_>, dimensions: impl Iterator<Item = usize>) -> String {
+        let center = |j: usize| format!("{} = {}", scene.names[j], short(scene.center(j, self.slice[j])));
         let centers: Vec<_> = dimensions.map(center).collect();
         if centers.is_empty() { String::new() } else { format!(" at {}", centers.join(", ")) }
     }
 
     /// Whether a region meets the cell in one dimension.
-    pub(super) fn meets(&self, material: &Material<'_>, region: &Region, dimension: usize) -> bool {
+    pub(super) fn meets(&self, scene: &Scene<'_>, region: &Region, dimension: usize) -> bool {
         let (lower, upper) = sides(region, dimension);
-        let (faces, i) = (&material.faces()[dimension], self.slice[dimension] as usize);
+        let (faces, i) = (&scene.faces()[dimension], self.slice[dimension] as usize);
         lower < faces[i + 1] && faces[i] < upper
     }
 

@@ -1,24 +1,34 @@
 //! The guarantee in words.
 
 use super::markup::escape;
-use super::material::Material;
+
 use super::numbers::{short, tuple};
+use super::scene::Scene;
 use crate::guarantee::{Evidence, Guarantee, SampleEvidence, lower_bound_text};
-use crate::run::Run;
+use crate::run::Manifest;
 use imdp::numeric::shortest_decimal;
 
+/// What is said about a controller.
+pub(super) struct Promise<'a> {
+    pub(super) guarantee: &'a Guarantee,
+    /// Its sentences.
+    pub(super) sentences: Vec<String>,
+    /// The bound that is promised.
+    pub(super) bound: f64,
+    /// The probability asked for, and whether it is met.
+    pub(super) threshold: Option<(f64, Option<bool>)>,
+    /// Whether there are upper bounds too.
+    pub(super) has_upper: bool,
+}
+
 /// What is promised, and what it rests on.
-pub(super) fn guarantee(material: &Material<'_>) -> String {
-    let guarantee = material.controller.guarantee();
-    let paragraphs: String = material
-        .controller
-        .promise()
-        .iter()
-        .map(|sentence| format!("<p>{}</p>\n", escape(sentence)))
-        .collect();
+pub(super) fn guarantee(promise: &Promise<'_>) -> String {
+    let Promise { guarantee, sentences, .. } = promise;
+    let paragraphs: String =
+        sentences.iter().map(|sentence| format!("<p>{}</p>\n", escape(sentence))).collect();
+    let bound = lower_bound_text(promise.bound);
     match &guarantee.evidence {
         Evidence::Samples(samples) => {
-            let bound = lower_bound_text(material.controller.promised().bound);
             let confidence = guarantee.confidence().map(shortest_decimal).unwrap_or_default();
             let caveat = guarantee
                 .caveat()
@@ -26,35 +36,40 @@ pub(super) fn guarantee(material: &Material<'_>) -> String {
             format!(
                 "<div class=\"promise\"><p class=\"figures\"><strong>≥ {bound}</strong> success, with confidence \
                  <strong>{confidence}</strong></p>\n{caveat}{paragraphs}{}</div>\n{}",
-                threshold(material),
-                conditions(guarantee, samples)
+                threshold(promise),
+                conditions(promise, samples)
             )
         }
         Evidence::Known { .. } => format!(
-            "<div class=\"promise\"><p class=\"figures\"><strong>≥ {}</strong> success</p>\n{paragraphs}{}</div>\n",
-            lower_bound_text(material.controller.promised().bound),
-            threshold(material)
+            "<div class=\"promise\"><p class=\"figures\"><strong>≥ {bound}</strong> success</p>\n{paragraphs}{}</div>\n",
+            threshold(promise)
         ),
         Evidence::Published { .. } => format!(
             "<div class=\"promise none\"><p class=\"figures\"><strong>No guarantee</strong></p>\n{paragraphs}<p>Every \
              interval by itself has a confidence level, but nothing makes them hold together; cells that no sample met \
              count as impossible. Compile with mode <code>pac</code> for a guarantee.</p>{}</div>\n",
-            threshold(material)
+            threshold(promise)
         ),
     }
 }
 
-fn threshold(material: &Material<'_>) -> String {
-    let Some(threshold) = material.problem().threshold() else { return String::new() };
-    let verdict = match material.answer.satisfied() {
+fn threshold(promise: &Promise<'_>) -> String {
+    let Some((threshold, satisfied)) = promise.threshold else { return String::new() };
+    let verdict = match satisfied {
         Some(true) => "it is met",
         Some(false) => "it is <strong>not</strong> met",
         None => "it is undecided",
     };
-    format!("<p>Asked for was at least {}: {verdict}.</p>\n", short(threshold.to_f64()))
+    format!("<p>Asked for was at least {}: {verdict}.</p>\n", short(threshold))
 }
 
-fn conditions(guarantee: &Guarantee, samples: &SampleEvidence) -> String {
+fn conditions(promise: &Promise<'_>, samples: &SampleEvidence) -> String {
+    let guarantee = promise.guarantee;
+    let upper = if promise.has_upper {
+        ""
+    } else {
+        "; in particular, there are no upper bounds for reaching the goal"
+    };
     let assumes: String = guarantee
         .assumes()
         .iter()
@@ -63,7 +78,7 @@ fn conditions(guarantee: &Guarantee, samples: &SampleEvidence) -> String {
     format!(
         "<ul>\n<li>One event of probability at least 1 − β, with β = {}, over the {} samples covers all cells, horizons \
          and policies at once: the policy was chosen on the same samples, and that is fine.</li>\n<li>Covered are {}. \
-         Nothing else is; in particular, there are no upper bounds for reaching the goal.</li>\n{assumes}</ul>\n",
+         Nothing else is{upper}.</li>\n{assumes}</ul>\n",
         short(samples.beta),
         samples.number,
         escape(guarantee.covers())
@@ -71,29 +86,33 @@ fn conditions(guarantee: &Guarantee, samples: &SampleEvidence) -> String {
 }
 
 /// What the user should know.
-pub(super) fn warnings(run: &Run) -> String {
-    if run.manifest.warnings.is_empty() {
+pub(super) fn warnings(manifest: &Manifest) -> String {
+    if manifest.warnings.is_empty() {
         return String::new();
     }
     let items: String =
-        run.manifest.warnings.iter().map(|warning| format!("<li>{}</li>\n", escape(warning))).collect();
+        manifest.warnings.iter().map(|warning| format!("<li>{}</li>\n", escape(warning))).collect();
     format!("<h3>To be aware of</h3>\n<ul>\n{items}</ul>\n")
 }
 
 /// What the plots show.
-pub(super) fn about_runs(material: &Material<'_>) -> String {
-    let chosen = match material.problem().initial_state() {
-        Some(_) => "the initial state",
-        None => "the model names no initial state, so the cell with the median promise was taken",
+pub(super) fn about_runs(scene: &Scene<'_>) -> String {
+    let chosen = match scene.start_is_given {
+        true => "the initial state",
+        false => "the model names no initial state, so the cell with the median promise was taken",
     };
-    let between = match material.problem().group_steps() {
+    let between = match scene.group_steps {
         1 => String::new(),
         d => format!(" They join the grouped instants, every {d} steps."),
     };
+    let memory = match scene.has_memory {
+        true => " Values and arrows are those with the memory that runs begin with.",
+        false => "",
+    };
     format!(
-        "Lines are the first {} simulated runs from x = {} ({chosen}), seed {}; those that failed are dashed.{between}",
-        material.trajectories.len(),
-        tuple(&material.start),
-        material.options.seed
+        "Lines are the first {} simulated runs from x = {} ({chosen}), seed {}; those that failed are dashed.{between}{memory}",
+        scene.trajectories.len(),
+        tuple(&scene.start),
+        scene.seed
     )
 }

@@ -5,7 +5,7 @@ use super::appearance::{NATIVE_MODEL, NOISE, PROBLEM};
 use super::error::OpenError;
 use super::manifest::{GroupedHorizon, InputFile, Manifest};
 use super::open::problem_document;
-use super::solution::{ON_LATTICE, stored};
+use super::solution::{ON_LATTICE, input_solution_options, stored};
 use super::staging::{RunDirectoryError, Staging};
 use super::write::{WriteOptions, begin_with_model, self_contained, write_samples, write_solution};
 use crate::abstraction::inputs::{InputAbstraction, InputEncoding, InputModel};
@@ -30,6 +30,8 @@ pub struct InputRun {
     pub directory: PathBuf,
     /// What the run was.
     pub manifest: Manifest,
+    /// The model file.
+    pub document: Document,
     /// The problem.
     pub problem: InputProblem,
     /// Its abstraction.
@@ -72,17 +74,33 @@ impl InputRun {
         let is_input = |_, input| (input as usize) < inputs;
         let solution = stored(&files, (PROBLEM, ON_LATTICE), question.num_pairs(), &is_input)?;
         let solution = solution.and_then(|solution| question.restored(solution));
-        Ok(Self { directory: directory.to_path_buf(), manifest, problem: *problem, abstraction, solution })
+        Ok(Self {
+            directory: directory.to_path_buf(),
+            manifest,
+            document,
+            problem: *problem,
+            abstraction,
+            solution,
+        })
     }
 
     /// The solution of the task: the one that the run holds, or else it is computed, with the same result.
     pub fn solution(&self, options: &SolverOptions<'_>) -> LandingSolution {
-        self.solution.clone().unwrap_or_else(|| self.solve(options))
+        self.solution.clone().unwrap_or_else(|| self.solve(&input_solution_options(&self.problem, options)))
     }
 
     /// Computes bounds on the value of every cell and the policy behind them; the same for the same directory and options.
     pub fn solve(&self, options: &SolverOptions<'_>) -> LandingSolution {
         self.abstraction.question().solve(options)
+    }
+
+    /// A solution with the values of all steps, where they are few; where they are many, or do not change, as it is.
+    pub fn by_step(&self, solution: &LandingSolution, options: &SolverOptions<'_>) -> LandingSolution {
+        let options = input_solution_options(&self.problem, options);
+        match solution.history.is_empty() && options.history > 0 {
+            true => self.solve(&options),
+            false => solution.clone(),
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::appearance::SOLUTION;
 use super::error::OpenError;
 use super::files::RunFiles;
-use crate::problem::Problem;
+use crate::problem::{InputProblem, Problem};
 use imdp::model::StateId;
 use imdp::solution_file::{self, SolutionSubject};
 use imdp::solver::{Solution, SolverOptions, Status};
@@ -16,9 +16,20 @@ const MOST_VALUES: u64 = 600_000;
 
 /// What controllers and reports need of a solution: the policy, and values with fewer steps left where they are few.
 pub fn solution_options<'a>(problem: &Problem, options: &SolverOptions<'a>) -> SolverOptions<'a> {
-    let cells = u64::from(problem.grid().num_cells());
-    let steps = problem.horizon().unwrap_or(0).min(MOST_STEPS).min((MOST_VALUES / cells).saturating_sub(1));
-    SolverOptions { policy: true, history: steps as usize, ..*options }
+    let history = kept_steps(problem.grid().num_cells(), problem.horizon());
+    SolverOptions { policy: true, history, ..*options }
+}
+
+/// What reports need of the solution of a problem whose actions are inputs; a task with a memory is another one later.
+pub fn input_solution_options<'a>(problem: &InputProblem, options: &SolverOptions<'a>) -> SolverOptions<'a> {
+    let has_memory = problem.cell_task().memories() > 1;
+    let history = kept_steps(problem.grid().num_cells(), problem.horizon().filter(|_| !has_memory));
+    SolverOptions { policy: true, history, ..*options }
+}
+
+/// For how many grouped steps values are kept.
+fn kept_steps(cells: u32, horizon: Option<u64>) -> usize {
+    horizon.unwrap_or(0).min(MOST_STEPS).min((MOST_VALUES / u64::from(cells)).saturating_sub(1)) as usize
 }
 
 /// What a solution on the lattice is of; the problem says the rest.

@@ -1,0 +1,135 @@
+//! What plots show of a closed loop, whatever its actions are.
+
+use super::values::StepValues;
+use crate::controller::{Tally, Trajectory};
+use crate::partition::{CellId, CellKind, Grid, GridAxis, Region};
+use crate::task::Safety;
+use imdp::numeric::to_f64;
+
+/// The most columns of a time axis of an unbounded task.
+const MOST_COLUMNS: usize = 60;
+
+/// A closed loop, simulated.
+pub(super) struct Scene<'a> {
+    pub(super) name: &'a str,
+    pub(super) grid: &'a Grid,
+    /// The names of the coordinates of the state.
+    pub(super) names: Vec<String>,
+    /// Their units.
+    pub(super) units: Vec<Option<String>>,
+    pub(super) wanted: &'a [Region],
+    pub(super) unsafe_: &'a [Region],
+    /// Whether runs have a memory: values and actions are those that they begin with.
+    pub(super) has_memory: bool,
+    /// In grouped steps.
+    pub(super) horizon: Option<u64>,
+    pub(super) group_steps: usize,
+    pub(super) safety: Safety,
+    pub(super) threshold: Option<f64>,
+    /// Whether values are promised: in reference mode nothing is.
+    pub(super) is_promised: bool,
+    pub(super) values: StepValues,
+    /// Where simulated runs start.
+    pub(super) start: Vec<f64>,
+    /// Whether the model says so.
+    pub(super) start_is_given: bool,
+    pub(super) start_cell: Option<CellId>,
+    pub(super) seed: u64,
+    /// What is drawn as noise.
+    pub(super) noise: &'static str,
+    /// The bound at the start.
+    pub(super) bound: f64,
+    pub(super) tally: Tally,
+    pub(super) trajectories: Vec<Trajectory>,
+    pub(super) actions: Box<dyn SceneActions + 'a>,
+    pub(super) faces: Vec<Vec<f64>>,
+}
+
+/// What a controller does in cells.
+pub(super) trait SceneActions {
+    /// What a cell means to the task.
+    fn kind(&self, cell: CellId) -> CellKind;
+
+    /// The actions of a cell by the number of grouped steps left, ascending.
+    fn entries(&self, cell: CellId) -> Vec<(u64, u32)>;
+
+    /// The mean of the state after an action, from the center of a cell.
+    fn successor(&self, cell: CellId, action: u32) -> Vec<f64>;
+
+    /// An action in words.
+    fn words(&self, action: u32) -> String;
+
+    /// How many actions are enabled in a cell.
+    fn enabled(&self, cell: CellId) -> usize;
+}
+
+/// The faces of the cells in every dimension.
+pub(super) fn faces(grid: &Grid) -> Vec<Vec<f64>> {
+    let of_axis = |axis: &GridAxis| (0..=axis.cells()).map(|i| to_f64(&axis.face(i))).collect();
+    grid.axes().iter().map(of_axis).collect()
+}
+
+impl Scene<'_> {
+    pub(super) fn dimension(&self) -> usize {
+        self.faces.len()
+    }
+
+    /// The faces of the cells in every dimension.
+    pub(super) fn faces(&self) -> &[Vec<f64>] {
+        &self.faces
+    }
+
+    /// The sides of the partition in one dimension.
+    pub(super) fn range(&self, dimension: usize) -> (f64, f64) {
+        let faces = &self.faces[dimension];
+        (faces[0], faces[faces.len() - 1])
+    }
+
+    /// The center of a cell in one dimension.
+    pub(super) fn center(&self, dimension: usize, index: u32) -> f64 {
+        let faces = &self.faces[dimension];
+        (faces[index as usize] + faces[index as usize + 1]) / 2.0
+    }
+
+    /// The name of a coordinate with its unit.
+    pub(super) fn title(&self, dimension: usize) -> String {
+        let name = &self.names[dimension];
+        self.units[dimension].as_ref().map_or_else(|| name.clone(), |unit| format!("{name} [{unit}]"))
+    }
+
+    /// The last grouped step of a time axis.
+    pub(super) fn last_step(&self) -> usize {
+        if self.horizon.is_some() {
+            return self.values.last_step();
+        }
+        let longest = self.trajectories.iter().map(|trajectory| trajectory.outcome.steps).max();
+        (longest.unwrap_or(1).max(1) as usize).min(MOST_COLUMNS)
+    }
+
+    /// What values are called.
+    pub(super) fn value_name(&self) -> &'static str {
+        if self.is_promised { "promised probability" } else { "value (nothing is promised)" }
+    }
+
+    pub(super) fn time_name(&self) -> String {
+        match self.group_steps {
+            1 => "step k".to_owned(),
+            d => format!("grouped step k ({d} steps each)"),
+        }
+    }
+
+    /// The action of a cell after so many grouped steps; `None` if there is none.
+    pub(super) fn action(&self, cell: CellId, step: usize) -> Option<u32> {
+        let left = self.horizon.map_or(1, |horizon| horizon.saturating_sub(step as u64));
+        if self.actions.kind(cell) != CellKind::Ordinary || left == 0 {
+            return None;
+        }
+        let entries = self.actions.entries(cell);
+        entries.iter().rev().find(|(at_least, _)| *at_least <= left).map(|&(_, action)| action)
+    }
+
+    /// The mean of the state after the action of `cell` at `step`; `None` if there is none.
+    pub(super) fn mean_successor(&self, cell: CellId, step: usize) -> Option<Vec<f64>> {
+        self.action(cell, step).map(|action| self.actions.successor(cell, action))
+    }
+}
