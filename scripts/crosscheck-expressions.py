@@ -3,7 +3,7 @@
 
     crosscheck-expressions.py [--seed N] [--wanted N] [--prism PATH] [--dynabs PATH]
 
-Models are small, with lower bounds above 0 or, for the fractions only, of 0; many stand side by side in one file, so that one
+Models are small, with lower bounds and rewards above 0 or, for the fractions only, of 0; many stand side by side in one file, so that one
 start of a solver answers a question for all of them: R (reach, cumulative, instantaneous, co-safe), LTL, and P nested in P.
 PRISM's values (-epsilon 1e-10) must be within the bounds or 1e-6 of them. Exact values are those of all memoryless policies
 and of all corners of nature, for LTL on the product with a deterministic automaton made by hand; they must be within the
@@ -23,8 +23,8 @@ from fractions import Fraction
 from pathlib import Path
 
 from crosscheck.dynabs import find
-from crosscheck.exact import flipped, optimum, parity_value, size, steps
-from crosscheck.formulas import formulas
+from crosscheck.exact import earned_before, flipped, optimum, parity_value, size, steps
+from crosscheck.formulas import cosafe_formulas, formulas
 
 KINDS = ("maxmin", "maxmax", "minmin", "minmax")
 TOLERANCE = 1e-6
@@ -40,7 +40,8 @@ class Model:
         self.choices, self.rewards = [], []
         for _ in range(self.states):
             self.choices.append([random_row(numbers, self.states, zeros) for _ in range(numbers.randint(1, 2))])
-            self.rewards.append(Fraction(numbers.randint(0, 8), 4))
+            # Where nothing is earned in a cycle, PRISM's iteration from below can stay too low.
+            self.rewards.append(Fraction(numbers.randint(0 if zeros else 1, 8), 4))
         self.labels = {name: {s for s in range(self.states) if numbers.random() < 0.4} for name in "abg"}
 
     def letters(self):
@@ -103,9 +104,9 @@ def reward_question(numbers, kind):
         case 1:
             return f"R{kind}=? [ I={horizon} ]", lambda m: steps(m.choices, kind, horizon, m.rewards, zero(m))[0]
         case 2:
-            other = numbers.choice("abg")
-            path = numbers.choice([f'X (F "{label}")', f'F ("{label}" & (X (F "{other}")))', f'(F "{label}") & (F "{other}")'])
-            return f"R{kind}=? [ {path} ]", lambda _: None
+            path, automaton = numbers.choice(cosafe_formulas(label, numbers.choice("abg")))
+            known = lambda m: earned_before(m.choices, kind, m.letters(), m.rewards, automaton, MOST_CHAINS)
+            return f"R{kind}=? [ {path} ]", known
         case _:
 
             def value(model):

@@ -2,9 +2,10 @@
 
 use dynabs::abstraction::inputs::InputAbstraction;
 use dynabs::controller::{Controller, Decision, ParameterChoice, RunMemory, Simulation};
+use dynabs::geometry::Polytope;
 use dynabs::model_file::{Document, StatedProblem};
 use dynabs::problem::InputProblem;
-use dynabs::system::{FeedbackLaw, ImageMap, ImageScratch, Lattice};
+use dynabs::system::{Demands, FeedbackLaw, ImageMap, ImageScratch, Lattice};
 use dynabs::task::Safety;
 use imdp::numeric::to_f64;
 use imdp::property::Resolution;
@@ -126,7 +127,8 @@ fn full_feedback_steers_to_a_point() {
     let problem = problem(&value);
     let lattice = Lattice::new(problem.grid(), &[1, 1], &[true, true]);
     let images = ImageMap::new(problem.mode(), problem.feedback(), problem.grid(), lattice, problem.inputs());
-    let law = FeedbackLaw::new(&problem.mode().as_linear().unwrap(), None).unwrap();
+    let system = problem.mode().as_linear().unwrap();
+    let law = FeedbackLaw::new(&system, &Polytope::from_box(&[], &[]), None, &Demands::default()).unwrap();
     let matrices = (law.target_gain(), law.state_gain(), law.constant());
     let mut scratch = ImageScratch::default();
     for cell in [[3, 17], [10, 9], [0, 0]] {

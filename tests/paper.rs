@@ -1,6 +1,6 @@
 //! The published numbers of the method: Table I and the spacecraft of ECC 2024.
 use crate::common::{abstraction, data, problem, reference_mode, table_one_row};
-use dynabs::abstraction::{Targets, enabled_actions};
+use dynabs::abstraction::{Targets, demands, enabled_actions};
 use dynabs::partition::{CellId, CellKind};
 use dynabs::problem::{Actions, Problem};
 use dynabs::statistics::ReferenceIntervals;
@@ -87,7 +87,7 @@ fn transitions_with_margin(problem: &Problem, margin: f64) -> u64 {
     let Actions::Targets(points) = problem.actions();
     let targets = Targets::new(points, problem.grid());
     let layers = problem.stabilizer().map(|s| &s.layers);
-    let law = FeedbackLaw::new(problem.system(), layers).unwrap();
+    let law = FeedbackLaw::new(problem.system(), problem.input(), layers, &demands(problem)).unwrap();
     let extent = Extent { state: problem.grid().magnitudes(), target: targets.magnitudes() };
     let mut constraints = law.constraints(problem.input(), layers.map(|l| l.abstract_input()), &extent);
     constraints.iter_mut().for_each(|constraint| constraint.bound += margin);

@@ -1,5 +1,5 @@
 //! The law that an enabled action promises: inside U, and at the target, from every state of the cell.
-use dynabs::abstraction::{Targets, enabled_actions};
+use dynabs::abstraction::{Targets, demands, enabled_actions};
 use dynabs::geometry::Polytope;
 use dynabs::model_file::Document;
 use dynabs::partition::{CellId, Grid};
@@ -49,7 +49,7 @@ fn check(problem: &Problem, seed: u64) -> usize {
     let Actions::Targets(points) = problem.actions();
     let targets = Targets::new(points, grid);
     let layers = problem.stabilizer().map(|s| &s.layers);
-    let law = FeedbackLaw::new(problem.system(), layers).unwrap();
+    let law = FeedbackLaw::new(problem.system(), problem.input(), layers, &demands(problem)).unwrap();
     let extent = Extent { state: grid.magnitudes(), target: targets.magnitudes() };
     let constraints = law.constraints(problem.input(), layers.map(|l| l.abstract_input()), &extent);
     let error = law.steering_error(&extent);

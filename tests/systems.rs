@@ -1,7 +1,7 @@
 //! Dynamics in model files: what is understood, and what is refused, where and why.
 
 use dynabs::model_file::{Document, StatedProblem};
-use dynabs::system::Mode;
+use dynabs::system::{Discretisation, ImageMap, ImageScratch, Lattice, Mode};
 use std::path::Path;
 
 const CAR: &str = r#"{
@@ -68,10 +68,33 @@ fn differential_equations() {
     let exact = 2.0 + (1.0 - 2.0) * (-0.1f64).exp();
     let next = step(problem.mode(), &[0.0, 1.0], &[0.4], &[1.0]);
     assert!((next[1] - exact).abs() < 1e-6, "{next:?}, not {exact}");
+    let how = problem.mode().discretisation().unwrap().to_string();
+    assert!(how.starts_with("0.5 of time, by a Taylor series of degree"), "{how}");
+    assert_eq!(stated(&[]).unwrap().mode().discretisation(), None);
 
     let matrices = "/dynamics={\"A\":[[0,1],[0,0]],\"B\":[[0],[1]],\"sample_time\":0.5}";
     let problem = stated(&[matrices]).unwrap();
     assert_eq!(step(problem.mode(), &[1.0, 2.0], &[4.0], &[]), [2.5, 4.0]);
+    assert_eq!(problem.mode().discretisation(), Some(&Discretisation::Exact { time: 0.5 }));
+}
+
+/// Several modes to choose from: an input that selects, in a list. Every image is that of one mode, exactly.
+#[test]
+fn modes_are_inputs_that_select() {
+    let select = "/dynamics={\"states\":[\"x\",\"y\"],\"inputs\":[\"m\"],\"next\":[\"m*(0.5*x) + (1 - m)*(0.25*y)\",\"(1 - m)*y\"]}";
+    let problem = stated(&[select, "/input={\"list\":[[0],[1]]}"]).unwrap();
+    let lattice = Lattice::new(problem.grid(), &[1, 1], &[true, true]);
+    let images = ImageMap::new(problem.mode(), problem.feedback(), problem.grid(), lattice, problem.inputs());
+    let mut scratch = ImageScratch::default();
+    let mut range = |input, j| {
+        let row = images.row(input, j);
+        assert!(images.is_exact(row));
+        let range = images.range(row, &[15, 5], &mut scratch).unwrap();
+        (range.first, range.last)
+    };
+    // The cell [1, 1.2) × [−1, −0.8): x⁺ in [−0.25, −0.2) or [0.5, 0.6), y⁺ in [−1, −0.8) or 0.
+    assert_eq!([range(0, 0), range(0, 1), range(1, 0)], [(8, 8), (5, 5), (12, 12)]);
+    assert_eq!(images.depends_on(images.row(1, 0)), [0]);
 }
 
 #[test]

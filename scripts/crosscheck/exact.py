@@ -180,12 +180,9 @@ def best_parity(moves, priorities):
             return values
 
 
-def parity_value(choices, kind, letters, automaton, most=256):
-    """The value in state 0 of a deterministic parity automaton's language; None if that would take too long.
-
-    `automaton` is (start, step(q, letter), priority(q)); both players may do with strategies without further memory.
-    """
-    start, step, priority = automaton
+def product(choices, letters, automaton):
+    """The pairs of a state and an automaton's state that are met from state 0, and where they stand in that list."""
+    start, step, _ = automaton
     first = (0, step(start, letters[0]))
     order, index = [first], {first: 0}
     for s, q in order:
@@ -195,6 +192,28 @@ def parity_value(choices, kind, letters, automaton, most=256):
                 if pair not in index:
                     index[pair] = len(order)
                     order.append(pair)
+    return order, index
+
+
+def earned_before(choices, kind, letters, rewards, automaton, most):
+    """What is earned from state 0 before the automaton is in a state "met"; None if that would take too long."""
+    order, index = product(choices, letters, automaton)
+    step = automaton[1]
+    own = [[[(index[t, step(q, letters[t])], low, high) for t, low, high in row] for row in choices[s]] for s, q in order]
+    goal = {i for i, (_, q) in enumerate(order) if q == "met"}
+    moving = [i for i in range(len(order)) if i not in goal]
+    if size(own, moving) > most:
+        return None
+    return optimum(own, kind, set(range(len(order))), goal, [rewards[s] for s, _ in order])[0]
+
+
+def parity_value(choices, kind, letters, automaton, most=256):
+    """The value in state 0 of a deterministic parity automaton's language; None if that would take too long.
+
+    `automaton` is (start, step(q, letter), priority(q)); both players may do with strategies without further memory.
+    """
+    _, step, priority = automaton
+    order, index = product(choices, letters, automaton)
     if math.prod(len(choices[s]) for s, _ in order) > most or len(order) > 14:
         return None
     outer, _ = directions(kind)

@@ -92,6 +92,35 @@ def or_next(a, b):
     return "free", step, lambda q: 1 if q == "lost" else 2
 
 
+def later(a):
+    """a in some state but the first."""
+
+    def step(q, letter):
+        return q if q == "met" else "open" if q == "first" else "met" if a in letter else "open"
+
+    return "first", step, lambda q: 2 if q == "met" else 1
+
+
+def both(a, b):
+    """a at some time, and b at some time."""
+
+    def step(q, letter):
+        if q == "met":
+            return q
+        q = q | ({a, b} & letter)
+        return "met" if q == {a, b} else frozenset(q)
+
+    return frozenset(), step, lambda q: 2 if q == "met" else 1
+
+
+def cosafe_formulas(a, b):
+    """Formulas of which a beginning of a run shows that they hold, with automata whose state is then "met"."""
+    start, step, priority = then(a, b)
+    named = lambda q: "met" if q == 2 else q
+    after = (start, lambda q, letter: named(step(2 if q == "met" else q, letter)), priority)
+    return [(f'X (F "{a}")', later(a)), (f'F ("{a}" & (X (F "{b}")))', after), (f'(F "{a}") & (F "{b}")', both(a, b))]
+
+
 def formulas(a, b, g):
     """Formulas over three labels, with their automata."""
     return [

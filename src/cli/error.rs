@@ -3,6 +3,8 @@
 use super::warn;
 use dynabs::Diagnostic;
 use dynabs::abstraction::AbstractionError;
+use dynabs::explain::GroupingTable;
+use dynabs::problem::GroupingTrial;
 use dynabs::run::RunDirectoryError;
 use imdp::files::{is_fault_of_input, is_interruption};
 use std::io;
@@ -76,18 +78,18 @@ impl CliError {
     /// An abstraction that failed, about the model file `file`.
     pub fn of_abstraction(error: &AbstractionError, file: &str) -> Self {
         let diagnostic = match error {
-            AbstractionError::NothingEnabled { stabilized: true } => Diagnostic::at(
+            AbstractionError::NothingEnabled { stabilized: true, .. } => Diagnostic::at(
                 "/stabilizer/abstract_input",
                 "a lower layer with which no action is enabled in any cell",
                 "at least one cell and target such that u = −K(x − x̄) + u′ stays in U with u′ in U′",
             )
             .remedy("Enlarge U′ or U, penalise the input more (a larger R), or use smaller cells."),
-            AbstractionError::NothingEnabled { stabilized: false } => Diagnostic::at(
+            AbstractionError::NothingEnabled { stabilized: false, grouping } => Diagnostic::at(
                 "/input",
                 "inputs with which no action is enabled in any cell",
                 "at least one cell from all of which one target can be reached with u in U",
             )
-            .remedy("Enlarge U, use smaller cells, or group more steps."),
+            .remedy(steering_remedy(grouping)),
             AbstractionError::NothingClear { group_steps } => Diagnostic::at(
                 "/task/unsafe",
                 format!(
@@ -138,5 +140,21 @@ pub fn exit_with(outcome: Result<ExitCode, CliError>) -> ExitCode {
                 _ => 4,
             })
         }
+    }
+}
+
+/// What to change where nothing is enabled, by which factor.
+fn steering_remedy(grouping: &[GroupingTrial]) -> String {
+    let general = "Enlarge U, use smaller cells, or group more steps";
+    let listed = GroupingTable(grouping);
+    let inputs = "\n  With \"actions\": \"inputs\" nothing needs to be steered to a point.";
+    match grouping.iter().min_by(|one, other| one.share.total_cmp(&other.share)) {
+        Some(best) if best.share > 1.0 => format!(
+            "{general}: with {} steps, cells {:.4} times smaller or a range of input {} so many times larger would do.{listed}{inputs}",
+            best.steps,
+            best.share,
+            best.input + 1
+        ),
+        _ => format!("{general}.{listed}{inputs}"),
     }
 }

@@ -6,6 +6,7 @@ use dynabs::guarantee::{Event, Evidence, Guarantee, SampleEvidence, lower_bound_
 use dynabs::landing::LandingSolution;
 use dynabs::problem::{Components, InputNoise, InputProblem};
 use dynabs::statistics::Allocation;
+use dynabs::system::Variable;
 use imdp::numeric::{round_decimal_up, shortest_decimal};
 use imdp::property::Verdict;
 use imdp::solver::{Answer, SolverOptions, Status};
@@ -166,6 +167,15 @@ pub(super) fn summary(problem: &InputProblem, abstraction: &InputAbstraction) ->
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  {name:<13}{value}");
     };
+    let mode = problem.mode();
+    let named = |all: &[Variable]| all.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    line("state", named(mode.states()));
+    if mode.num_inputs() > 0 {
+        line("input", named(mode.inputs()));
+    }
+    if let Some(how) = mode.discretisation() {
+        line("step", how.to_string());
+    }
     let question = abstraction.question();
     let cells = problem.grid().num_cells();
     line(

@@ -63,6 +63,7 @@
 pub mod abstraction;
 pub mod controller;
 mod diagnostic;
+pub mod explain;
 pub mod geometry;
 pub mod guarantee;
 pub mod landing;

@@ -1,6 +1,7 @@
 //! What a user should know although nothing is wrong for certain.
 
 use crate::partition::NearMiss;
+use crate::problem::GroupingTrial;
 use crate::statistics::{Departure, Trend};
 use imdp::numeric::{shortest_decimal, to_f64};
 use std::fmt;
@@ -23,6 +24,13 @@ pub enum Warning {
         used: u64,
         /// How many steps are grouped.
         group_steps: usize,
+    },
+    /// More steps are grouped than it takes to reach every direction.
+    Grouped {
+        /// How many.
+        steps: usize,
+        /// What fewer could do.
+        fewest: GroupingTrial,
     },
     /// The lower layer does not stabilise.
     Unstable {
@@ -99,6 +107,23 @@ impl fmt::Display for Warning {
                 "/task/horizon: {steps} steps are {} groups of {group_steps}; the guarantee is for the first {used}",
                 used / *group_steps as u64
             ),
+            Self::Grouped { steps, fewest } => {
+                let GroupingTrial { steps: fewer, input, share, .. } = fewest;
+                let why = match share {
+                    share if *share > 1.0 => format!(
+                        "the states of one cell would take {share:.3} times the range of input {} and nothing would be enabled",
+                        input + 1
+                    ),
+                    _ if fewest.leaves_start == Some(false) => {
+                        "nothing would be enabled at the start".to_owned()
+                    }
+                    _ => "nothing near the goal would be enabled that steers into it".to_owned(),
+                };
+                write!(
+                    f,
+                    "/dynamics/group_steps: \"auto\" groups {steps} steps into one, for with {fewer} {why}"
+                )
+            }
             Self::Unstable { radius } => write!(
                 f,
                 "/stabilizer: the closed loop has spectral radius {radius:.6}: this gain does not stabilise"

@@ -83,5 +83,12 @@ fn rewards_survive_every_format_that_holds_them() {
         Command::cargo_bin("dynabs-check").unwrap().args(["convert", &at("m.pexp"), &at("c.tra")]).output();
     assert_eq!(output.unwrap().status.code(), Some(2));
     let text = check(&["convert", &at("m.pexp"), &at("f.dynabs")]);
+    assert!(!text.contains("not written"), "{text}");
+    assert_eq!(earned(&imdp::formats::native::read(Path::new(&at("f.dynabs"))).unwrap()), original);
+    // Rewards of a model that is replaced would be read as those of the new one.
+    check(&["convert", &at("d.drn"), &at("a.tra"), "--force"]);
+    let files = imdp::formats::prism::ExplicitFiles::of(Path::new(&at("a.tra")));
+    assert_eq!((files.srew.len(), files.trew.len()), (2, 2), "{files:?}");
+    let text = check(&["convert", &at("m.pexp"), &at("f.txt")]);
     assert!(text.contains("the rewards \"time\", \"energy\", \"none\" are not written"), "{text}");
 }

@@ -4,6 +4,7 @@ use super::controller::{ControllerArguments, run as controller};
 use super::convert::{ConvertArguments, run as convert};
 use super::crosscheck::{CrosscheckArguments, run as crosscheck};
 use super::diff::{DiffArguments, run as diff};
+use super::explain::{ExplainArguments, run as explain};
 use super::report::{ReportArguments, run as report};
 use super::simulate::{SimulateArguments, run as simulate};
 use super::solve::{SolveArguments, run as solve};
@@ -32,6 +33,8 @@ enum Command {
     Controller(ControllerArguments),
     /// Simulate the closed loop of a compiled model and compare with what is promised.
     Simulate(SimulateArguments),
+    /// Say why the bound of a compiled model is low, and what to change.
+    Explain(ExplainArguments),
     /// Check a certificate of `solve --certificate` in exact arithmetic; exit code 1 if it is rejected.
     Verify(VerifyArguments),
     /// Write a model in another format, or with one state per row.
@@ -59,6 +62,7 @@ pub fn run(arguments: &CheckArguments) -> Result<ExitCode, CliError> {
         Command::Solve(arguments) => solve(arguments),
         Command::Controller(arguments) => controller(arguments),
         Command::Simulate(arguments) => simulate(arguments),
+        Command::Explain(arguments) => explain(arguments),
         Command::Verify(arguments) => verify(arguments),
         Command::Convert(arguments) => convert(arguments),
         Command::Report(arguments) => report(arguments),

@@ -8,13 +8,15 @@ use crate::summary::{memory, summary};
 use crate::{Bars, CliError, EncodingName, print, use_threads, warn};
 use clap::Parser;
 use dynabs::abstraction::{Abstraction, Footprint, compile};
+use dynabs::controller::Controller;
+use dynabs::explain::explain;
 use dynabs::model_file::{Document, SetArgument, StatedProblem, json_schema, starter_model};
 use dynabs::problem::Problem;
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, solution_options, write_run};
 use imdp::files::{self, Outputs};
 use imdp::formats::Format;
 use imdp::model::{IntervalMdp, available_memory};
-use imdp::property::Property;
+use imdp::property::{Property, Verdict};
 use imdp::solver::{Answer, Pruned};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -188,6 +190,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
     let mut results = Vec::new();
     let mut pruning = None;
     let mut solution = None;
+    let mut explanation = None;
     if arguments.prune {
         let solving = Instant::now();
         let (result, report) = prune(&mut abstraction, &bars)?;
@@ -199,6 +202,10 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
     if arguments.solve && !arguments.prune {
         let solving = Instant::now();
         let (answer, result) = solve(&problem, &abstraction, &bars)?;
+        if !arguments.quiet && !arguments.json && is_low(&answer) {
+            let controller = Controller::new(&problem, &abstraction, &answer)?;
+            explanation = Some(explain(&problem, &abstraction, &answer, &controller, &*bars));
+        }
         results.push(result);
         solution = Some(answer.solution);
         phases.push(("solving", solving.elapsed()));
@@ -219,7 +226,15 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
         result.guarantee = Some(claim.map_err(|error| CliError::Failure(error.to_string()))?);
     }
     report(arguments, &manifest, &abstraction.footprint, &phases, &results)?;
+    if let Some(explanation) = explanation {
+        print(&explanation.to_string())?;
+    }
     Ok(exit_code(&results))
+}
+
+/// Whether a value asks for an explanation: it misses its threshold, or it is below one half.
+fn is_low(answer: &Answer) -> bool {
+    answer.verdict == Some(Verdict::Fails) || answer.lower < 0.5
 }
 
 /// Solves the task, with what controllers and reports need later.

@@ -3,7 +3,7 @@
 use super::compile::pruned;
 use crate::input_summary::{InputResult, summary};
 use crate::{Bars, CliError, print, warn};
-use dynabs::abstraction::inputs::{InputAbstraction, InputEncoding, InputModel, InputsError};
+use dynabs::abstraction::inputs::{CostError, InputAbstraction, InputEncoding, InputModel, InputsError};
 use dynabs::landing::FlatModelError;
 use dynabs::model_file::Document;
 use dynabs::problem::InputProblem;
@@ -145,6 +145,14 @@ fn export(
         }
         FlatModelError::Model(_) => CliError::Failure(error.to_string()),
     })?;
+    if wanted.prune && !problem.costs().is_empty() {
+        warn("warning: costs are left out: what --prune keeps is for the task\n");
+    } else {
+        model = abstraction.with_costs(problem, model).map_err(|error| match error {
+            CostError::Reward(_) => CliError::Failure(error.to_string()),
+            _ => CliError::Input(error.to_string()),
+        })?;
+    }
     let pruning = match wanted.prune {
         true => Some(pruned(&mut model.model, &model.properties[0], bars)?.1),
         false => None,

@@ -141,12 +141,14 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
         written.map_err(|error| CliError::writing(&path, &error))?;
         bars.finish();
     }
+    let mut earned = vec![];
     for file in writer.reward_files() {
         let mut name = output.with_extension("").into_os_string();
         name.push(&file.suffix);
         let path = PathBuf::from(name);
         let written = files.write(&path, |out| file.write(out));
         written.map_err(|error| CliError::writing(&path, &error))?;
+        earned.push(path);
     }
     let left_out = writer.rewards_left_out();
     if !left_out.is_empty() {
@@ -172,6 +174,9 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
         io::ErrorKind::AlreadyExists => taken(output),
         _ => CliError::writing(output, &error),
     })?;
+    if has_place && format == Format::Prism {
+        remove_others(output, &earned)?;
+    }
     if !arguments.quiet {
         let text: String = warnings.iter().map(|warning| format!("warning: {warning}\n")).collect();
         warn(&text);
@@ -190,6 +195,17 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
 fn not_written<'n>(names: impl Iterator<Item = &'n str>) -> String {
     let names: Vec<_> = names.map(|name| format!("\"{name}\"")).collect();
     format!("the rewards {} are not written", names.join(", "))
+}
+
+/// Removes the rewards of the model that was replaced, which would be read as those of the new one.
+fn remove_others(output: &Path, earned: &[PathBuf]) -> Result<(), CliError> {
+    loop {
+        let ExplicitFiles { srew, trew, .. } = ExplicitFiles::beside(output);
+        let Some(path) = srew.into_iter().chain(trew).find(|path| !earned.contains(path)) else {
+            return Ok(());
+        };
+        std::fs::remove_file(&path).map_err(|error| CliError::writing(&path, &error))?;
+    }
 }
 
 fn refuse_existing(arguments: &ConvertArguments, format: Format) -> Result<(), CliError> {

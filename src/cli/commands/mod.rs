@@ -7,6 +7,7 @@ pub mod controller;
 pub mod convert;
 pub mod crosscheck;
 pub mod diff;
+pub mod explain;
 pub mod report;
 pub mod simulate;
 pub mod solve;

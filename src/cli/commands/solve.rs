@@ -208,8 +208,9 @@ fn write_evaluation(
         let derivation = evaluation.derivation(compound, nature, &loaded.model, loaded.digests()?);
         let Some(derivation) = derivation else {
             return Err(CliError::Input(format!(
-                "--certificate: found {compound}, which has a part that nothing proves yet: LTL, automata, an F or U that begins \
-                 after some steps, or a computation that was stopped; expected F, G, U, X and R, perhaps inside of each other"
+                "--certificate: found {compound}, which has a part that nothing proves: an automaton of a file, an F or U that \
+                 begins after some steps, an infinite value that hangs on a tiny probability, or bounds that did not converge; \
+                 expected F, G, U, X, R and LTL, perhaps inside of each other"
             )));
         };
         let written = files.write(path, |out| certificate::write_derivation(&derivation, out));

@@ -42,7 +42,8 @@ impl Enabling {
         progress.finish();
         let is_empty = |actions: &EnabledActions| actions.ranges.is_empty() && !ordinary.is_empty();
         if is_empty(&actions) {
-            return Err(AbstractionError::NothingEnabled { stabilized: problem.stabilizer().is_some() });
+            let (stabilized, grouping) = (problem.stabilizer().is_some(), problem.grouping().to_vec());
+            return Err(AbstractionError::NothingEnabled { stabilized, grouping });
         }
         let mut idle = vec![false; problem.grid().num_cells() as usize];
         for (cell, &count) in ordinary.iter().zip(&actions.ranges_per_cell) {

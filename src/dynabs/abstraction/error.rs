@@ -1,6 +1,7 @@
 //! Why there is no abstraction.
 
 use crate::memory::TooLarge;
+use crate::problem::GroupingTrial;
 use crate::statistics::BudgetError;
 use imdp::model::ImdpError;
 
@@ -12,6 +13,8 @@ pub enum AbstractionError {
     NothingEnabled {
         /// Whether there is a lower layer, which may be to blame.
         stabilized: bool,
+        /// What numbers of grouped steps could do.
+        grouping: Vec<GroupingTrial>,
     },
     /// Every action may meet something unsafe at a step in between.
     #[error("in every cell every action may meet something unsafe between grouped instants")]

@@ -38,4 +38,5 @@ pub use error::AbstractionError;
 pub use footprint::Footprint;
 pub use outcomes::{Outcome, Outcomes};
 pub use placement::Placement;
+pub use steering::demands;
 pub use targets::{Alignment, Targets};

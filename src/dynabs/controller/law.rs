@@ -1,7 +1,7 @@
 //! From a state and an action to an input, in doubles, in one fixed order of operations.
 
 use crate::partition::{CellId, CellLookup, Grid};
-use crate::system::{Feedback, FeedbackLaw};
+use crate::system::{Feedback, FeedbackLaw, Mode, Variable};
 use nalgebra::DMatrix;
 
 /// The law of the actions.
@@ -36,6 +36,8 @@ pub(super) struct CenteredLaw {
     pub(super) nominal: Vec<f64>,
     /// `p`.
     pub(super) inputs: usize,
+    /// What the numbers of `x` and `u` are.
+    pub(super) coordinates: [Vec<Variable>; 2],
     pub(super) feedback: Feedback,
     /// Per coordinate, the centers of the cells.
     pub(super) centers: Vec<Vec<f64>>,
@@ -97,9 +99,24 @@ impl SteeringLaw {
 }
 
 impl CenteredLaw {
-    pub(super) fn new(nominal: Vec<f64>, inputs: usize, feedback: Feedback, grid: &Grid) -> Self {
+    pub(super) fn new(nominal: Vec<f64>, mode: &Mode, feedback: Feedback, grid: &Grid) -> Self {
         let centers = grid.axes().iter().map(|axis| axis.centers()).collect();
-        Self { nominal, inputs, feedback, centers }
+        let coordinates = [mode.states().to_vec(), mode.inputs().to_vec()];
+        Self { nominal, inputs: mode.num_inputs(), coordinates, feedback, centers }
+    }
+
+    /// What the numbers of `x` and `u` are, in words.
+    pub(super) fn words(&self) -> String {
+        let named = |all: &[Variable]| {
+            let one = |v: &Variable| match &v.unit {
+                Some(unit) => format!("{} in {unit}", v.name),
+                None => v.name.clone(),
+            };
+            all.iter().map(one).collect::<Vec<_>>().join(", ")
+        };
+        let [x, u] = &self.coordinates;
+        let input = if u.is_empty() { String::new() } else { format!("; u = ({})", named(u)) };
+        format!("x = ({}){input}.", named(x))
     }
 
     fn center(&self, cell: CellId, lookup: &CellLookup) -> Vec<f64> {

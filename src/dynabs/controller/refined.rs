@@ -95,7 +95,6 @@ impl Controller {
             CellKind::Ordinary | CellKind::Goal => solution.policy.changes(StateId(pair)),
         };
         let nominal = problem.inputs().iter().flatten().map(to_f64).collect();
-        let inputs = problem.mode().num_inputs();
         let lower = &solution.values.lower;
         let initial = abstraction.initial(problem.initial_cell());
         let bound = initial.iter().map(|&cell| lower[cell as usize]).fold(1.0, f64::min);
@@ -105,7 +104,7 @@ impl Controller {
             memory: MemoryUpdate::new(task, problem.objective()),
             horizon: problem.horizon(),
             group_steps: 1,
-            law: Law::Centered(CenteredLaw::new(nominal, inputs, problem.feedback().clone(), grid)),
+            law: Law::Centered(CenteredLaw::new(nominal, problem.mode(), problem.feedback().clone(), grid)),
             schedule: Schedule::of_pairs((0..task.memories() * cells).map(changes)),
             bounds: lower.clone(),
             guarantee: Guarantee { event: Event::of_inputs(problem), evidence: abstraction.evidence.clone() },

@@ -1,6 +1,6 @@
 //! Convex sets of inputs: polytopes in half-space form.
 
-mod feasibility;
+mod linear_program;
 mod polytope;
 
 pub use polytope::Polytope;

@@ -1,6 +1,6 @@
 //! Polytopes `{u : G u ≤ g}`.
 
-use super::feasibility::is_feasible;
+use super::linear_program::{bounding_box, is_feasible};
 use crate::linear_algebra::ExactMatrix;
 use imdp::numeric::Rational;
 use num_traits::{One, Signed, Zero};
@@ -65,6 +65,11 @@ impl Polytope {
     pub fn is_empty(&self) -> bool {
         !self.contains_origin() && !is_feasible(&self.normals, &self.offsets)
     }
+
+    /// The least and greatest value of every coordinate, exactly; `None` if the set is empty or unbounded.
+    pub fn bounding_box(&self) -> Option<Vec<(Rational, Rational)>> {
+        bounding_box(&self.normals, &self.offsets)
+    }
 }
 
 #[cfg(test)]
@@ -101,5 +106,21 @@ mod tests {
         // An unbounded strip away from the origin.
         assert!(!polytope(2, &[1.0, 1.0, -1.0, -1.0], &[3.0, -2.0]).is_empty());
         assert!(polytope(2, &[1.0, 1.0, -1.0, -1.0], &[2.0, -3.0]).is_empty());
+    }
+
+    #[test]
+    fn bounding_boxes_are_exact() {
+        let bounds = |set: Polytope| {
+            set.bounding_box().map(|pairs| pairs.into_iter().flat_map(|(a, b)| [a, b]).collect())
+        };
+        let unit = Polytope::from_box(&exact(&[-1.0, 14.0]), &exact(&[1.0, 28.0]));
+        assert_eq!(bounds(unit), Some(exact(&[-1.0, 1.0, 14.0, 28.0])));
+        // The triangle with corners (0.1, 0.2), (0.3, 0.2), (0.1, 0.4): x + y ≤ 0.5.
+        let triangle = [1.0, 1.0, -1.0, 0.0, 0.0, -1.0];
+        assert_eq!(bounds(polytope(3, &triangle, &[0.5, -0.1, -0.2])), Some(exact(&[0.1, 0.3, 0.2, 0.4])));
+        // One point, no point, a strip.
+        assert_eq!(bounds(polytope(3, &triangle, &[0.3, -0.1, -0.2])), Some(exact(&[0.1, 0.1, 0.2, 0.2])));
+        assert_eq!(bounds(polytope(3, &triangle, &[0.2, -0.1, -0.2])), None);
+        assert_eq!(bounds(polytope(2, &[1.0, 0.0, -1.0, 0.0], &[3.0, 2.0])), None);
     }
 }

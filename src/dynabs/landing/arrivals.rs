@@ -6,9 +6,9 @@ use imdp::model::{Rows, StateId};
 use std::collections::HashMap;
 
 /// Everything that failed.
-pub(super) const FAILED: StateId = StateId(0);
+pub(crate) const FAILED: StateId = StateId(0);
 /// Where unlisted noise goes.
-pub(super) const LOST: StateId = StateId(1);
+pub(crate) const LOST: StateId = StateId(1);
 /// All goal cells, if there is a goal.
 pub(super) const REACHED: StateId = StateId(2);
 

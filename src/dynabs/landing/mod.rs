@@ -41,6 +41,7 @@ mod taps;
 mod tests;
 mod weights;
 
+pub(crate) use arrivals::{FAILED, LOST};
 pub use axis::Axis;
 pub use flat::FlatModelError;
 pub use images::{ImageSource, Images, LandingError, occurring};

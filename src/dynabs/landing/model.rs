@@ -24,6 +24,8 @@ pub struct LandingModel {
     pub model: IntervalMdp,
     /// By cell: the states in one of which nature begins; cells that lost or won share one.
     pub of_cell: Vec<Vec<StateId>>,
+    /// The states in which the controller acts, and their cells.
+    pub acting: Vec<(StateId, u32)>,
     /// How many steps of the model are one of the system.
     pub micro_steps: u64,
 }
@@ -189,7 +191,9 @@ impl Skeleton {
             labels,
             variables: StateVariables::default(),
         })?;
-        Ok(LandingModel { model, of_cell: arrivals.at_start.clone(), micro_steps })
+        let acting =
+            StateId::first(arrivals.pairs_end).skip(heads).zip(pairs.iter().flatten().copied()).collect();
+        Ok(LandingModel { model, of_cell: arrivals.at_start.clone(), acting, micro_steps })
     }
 }
 

@@ -5,7 +5,7 @@ use super::named::Named;
 use super::parts::given;
 use crate::Diagnostic;
 use crate::problem::{Constant, Equations, ExpressionDynamics, GroupSteps, LinearDynamics};
-use crate::system::{Interval, Mode, SampledLinear, Variable};
+use crate::system::{Discretisation, Interval, Mode, SampledLinear, Variable};
 use imdp::numeric::from_decimal;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -130,19 +130,23 @@ impl DynamicsSpec {
         if held == 0 || held > 64 {
             return Err(Diagnostic::at("/dynamics/hold", held.to_string(), "a number of steps from 1 to 64"));
         }
-        let Some(time) = self.sample_time else {
+        let Some(sample_time) = self.sample_time else {
             let mode = Mode::linear(&system, states, inputs);
             return Ok(if held > 1 { mode.held(held) } else { mode });
         };
         let place = "/dynamics/sample_time";
-        let time = from_decimal(time)
+        let time = from_decimal(sample_time)
             .filter(num_traits::Signed::is_positive)
-            .ok_or_else(|| Diagnostic::at(place, time.to_string(), "a positive number"))?;
+            .ok_or_else(|| Diagnostic::at(place, sample_time.to_string(), "a positive number"))?;
         let sampled = SampledLinear::new(&system, &time).map_err(|error| {
             Diagnostic::at(place, error.to_string(), "a step that is short for these dynamics")
                 .remedy("Divide sample_time by some number and give that number as \"hold\".")
         })?;
-        let mode = sampled.mode(states, inputs);
+        let how = match sampled.is_exact() {
+            true => Discretisation::Exact { time: sample_time },
+            false => Discretisation::Enclosed { time: sample_time },
+        };
+        let mode = sampled.mode(states, inputs).discretised(how);
         Ok(if held > 1 { mode.held(held) } else { mode })
     }
 

@@ -59,6 +59,24 @@ pub(super) struct ModelFile {
     /// How probability intervals are computed from the samples.
     #[serde(default)]
     pub(super) probabilities: ProbabilitiesSpec,
+    /// For actions "inputs": what steps cost, by name; the model in files has them as rewards.
+    #[serde(default)]
+    pub(super) costs: Named<CostSpec>,
+}
+
+/// What a step costs.
+#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Cost")]
+pub(super) struct CostSpec {
+    /// The cost of a step, an expression in states and inputs, such as "u1^2 + 0.1*abs(x1)"; 0 where it is negative.
+    pub(super) step: String,
+    /// What a step costs at most once the task has failed; as much as any other step if absent.
+    #[serde(default)]
+    pub(super) outside: Option<f64>,
+    /// What the next step's cost is worth today; 1 if absent.
+    #[serde(default)]
+    pub(super) discount: Option<f64>,
 }
 
 /// What the controller chooses from.

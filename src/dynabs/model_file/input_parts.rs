@@ -1,14 +1,15 @@
 //! From the fields of a model file to the parts of a problem whose actions are inputs.
 
 use super::fields::{
-    FeedbackSpec, GaussianSpec, IndependentSpec, LqrSpec, ModelFile, NoiseSpec, ProbabilitiesSpec, SetSpec,
-    TargetsSpec,
+    CostSpec, FeedbackSpec, GaussianSpec, IndependentSpec, LqrSpec, ModelFile, NoiseSpec, ProbabilitiesSpec,
+    SetSpec, TargetsSpec,
 };
 use super::parts::{self, given, input_set, partition, probabilities};
 use super::task_parts::task;
 use crate::Diagnostic;
 use crate::problem::{
-    Components, FeedbackChoice, GaussianNoise, InputChoice, InputNoiseParts, InputParts, InputSet, LqrWeights,
+    Components, CostParts, FeedbackChoice, GaussianNoise, InputChoice, InputNoiseParts, InputParts, InputSet,
+    LqrWeights,
 };
 use std::path::Path;
 
@@ -49,7 +50,13 @@ pub(super) fn input_parts(file: ModelFile, directory: &Path) -> Result<InputPart
         noise,
         task: Some(task(file.task, file.regions, directory)?),
         initial_state: file.initial_state,
+        costs: file.costs.0.into_iter().map(cost).collect(),
     })
+}
+
+fn cost((name, spec): (String, CostSpec)) -> CostParts {
+    let CostSpec { step, outside, discount } = spec;
+    CostParts { name, step, outside, discount }
 }
 
 /// Known noise, or samples and what is asked of them.

@@ -74,6 +74,10 @@ fn builder(file: ModelFile, directory: &Path) -> Result<ProblemBuilder, Diagnost
         let found = "a field for actions \"inputs\"";
         return Err(Diagnostic::at("/feedback", found, "only fields for actions \"targets\"").remedy(INPUTS));
     }
+    if !file.costs.0.is_empty() {
+        let found = "a field for actions \"inputs\"";
+        return Err(Diagnostic::at("/costs", found, "only fields for actions \"targets\"").remedy(INPUTS));
+    }
     let DynamicsSpec { a, b, q, group_steps, .. } = file.dynamics;
     let a = a.ok_or_else(|| missing("A").remedy(INPUTS))?;
     let b = b.ok_or_else(|| missing("B").remedy(INPUTS))?;

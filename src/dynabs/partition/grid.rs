@@ -189,6 +189,11 @@ impl Grid {
         self.axes.iter().map(GridAxis::magnitude).collect()
     }
 
+    /// The width of a cell, per dimension.
+    pub fn widths(&self) -> Vec<f64> {
+        self.axes.iter().map(|axis| to_f64(axis.width())).collect()
+    }
+
     /// Whether every cell is as wide as those of `other`, whose faces these are multiples of: then each
     /// center here sits at the same relative place of a cell there.
     ///

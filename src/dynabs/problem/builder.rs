@@ -1,5 +1,6 @@
 //! From parts to a problem: the checks that need several parts at once.
 
+use super::grouping::Setting;
 pub(super) use super::problem::InitialState;
 use super::problem::Problem;
 use super::values::vector;
@@ -7,9 +8,9 @@ use super::{
     Dynamics, GroupSteps, InputSet, LowerLayer, NoiseSource, Partition, Probabilities, TargetChoice, Task,
     dynamics, lower_layer, regions, task,
 };
-use crate::Diagnostic;
 use crate::partition::Grid;
 use crate::system::group;
+use crate::{Diagnostic, Warning};
 use imdp::numeric::to_f64;
 
 /// The parts of a [`Problem`], not yet checked. Partition, task and noise must be given.
@@ -109,23 +110,44 @@ impl ProblemBuilder {
         let step_system = linear.system()?;
         let n = step_system.state_dimension();
         let step_input = self.input.polytope("/input", step_system.input_dimension())?;
-        let group_steps = dynamics::group_steps(self.group_steps, &step_system)?;
+        let mut group_steps = dynamics::group_steps(self.group_steps, &step_system)?;
         dynamics::require_short_numbers(&step_system, group_steps)?;
-        let system = group(&step_system, group_steps);
-        let input = step_input.power(group_steps);
 
         let grid = given(self.partition, "partition")?.grid("/partition", n)?;
         let actions = regions::actions("/targets", &self.targets, n)?;
         let wanted = given(self.task, "task")?;
-        task::require_steerable(&wanted, group_steps, &self.probabilities)?;
-        let task = task::CheckedTask::new(&wanted, &grid, group_steps)?;
+        let mut task = task::CheckedTask::new(&wanted, &grid, group_steps)?;
         let initial = self.initial_state.map(|state| initial(state, &grid)).transpose()?;
+        let noise = given(self.noise, "noise")?;
+        let setting = Setting {
+            system: &step_system,
+            input: &step_input,
+            grid: &grid,
+            actions: &actions,
+            labels: &task.labels,
+            start: initial.as_ref().map(|initial| initial.cell),
+        };
+        let is_free =
+            self.group_steps == GroupSteps::Auto && self.lower_layer.is_none() && !noise.is_grouped();
+        let most = if is_free { wanted.horizon.most() } else { group_steps as u64 };
+        let trials = setting.trials(group_steps, usize::try_from(most).unwrap_or(usize::MAX));
+        if let Some(chosen) = Setting::chosen(&trials).filter(|&chosen| chosen > group_steps) {
+            group_steps = chosen;
+            dynamics::require_short_numbers(&step_system, group_steps)?;
+            task = task::CheckedTask::new(&wanted, &grid, group_steps)?;
+        }
+        task::require_steerable(&wanted, group_steps, &self.probabilities)?;
+        let system = group(&step_system, group_steps);
+        let input = step_input.power(group_steps);
         let stabilizer =
             self.lower_layer.map(|layer| lower_layer::stabilizer(&layer, &system, &input, &grid));
         let stabilizer = stabilizer.transpose()?;
-        let noise = given(self.noise, "noise")?.obtain(&step_system, group_steps)?;
+        let noise = noise.obtain(&step_system, group_steps)?;
         let safety = task::safety(wanted.check, group_steps, &noise.of_one_step, &self.probabilities)?;
         let mut warnings = task.warnings;
+        if let Some(fewest) = trials.first().filter(|fewest| fewest.steps < group_steps) {
+            warnings.push(Warning::Grouped { steps: group_steps, fewest: fewest.clone() });
+        }
         warnings.extend(stabilizer.iter().flat_map(|s| s.warnings.iter().cloned()));
         warnings.extend(noise.warnings.iter().cloned());
         Ok(Problem {
@@ -133,6 +155,7 @@ impl ProblemBuilder {
             step_system,
             step_input,
             group_steps,
+            grouping: trials,
             system,
             input,
             stabilizer,

@@ -26,7 +26,9 @@ pub struct LinearDynamics {
 /// How many steps become one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum GroupSteps {
-    /// As few as make the grouped `B` of full row rank.
+    /// As few as make the grouped `B` of full row rank and, as far as can be seen beforehand, let actions leave the start and
+    /// meet the goal. With a lower layer or samples of grouped steps, which are for one number of steps: the
+    /// fewest.
     #[default]
     Auto,
     /// This many.

@@ -3,7 +3,7 @@
 use super::values::count;
 use crate::Diagnostic;
 use crate::system::expression::{Graph, NodeId, Scope, parse};
-use crate::system::{Interval, Mode, TaylorStep, Variable};
+use crate::system::{Discretisation, Interval, Mode, TaylorStep, Variable};
 use imdp::numeric::{Rational, from_decimal};
 use num_traits::Signed;
 
@@ -82,24 +82,30 @@ impl ExpressionDynamics {
             let expected = format!("a number of steps from 1 to {MOST_HELD}");
             return Err(Diagnostic::at("/dynamics/hold", self.hold.to_string(), expected));
         }
-        let next = match &self.equations {
-            Equations::Next(_) => roots,
+        let (next, how) = match &self.equations {
+            Equations::Next(_) => (roots, None),
             Equations::Rates { sample_time, .. } => {
                 let time = positive("/dynamics/sample_time", *sample_time)?;
                 let mut variables = domain.to_vec();
                 variables.extend_from_slice(&parameters);
-                TaylorStep::find(&mut graph, &roots, &time, self.hold, &variables)
-                    .map_err(|error| {
+                let found =
+                    TaylorStep::find(&mut graph, &roots, &time, self.hold, &variables).map_err(|error| {
                         let place = match error.place(&graph) {
                             Some((text, column)) => format!("{text} (column {column})"),
                             None => "/dynamics/sample_time".into(),
                         };
                         Diagnostic::at(place, error.to_string(), error.expected()).remedy(error.remedy())
-                    })?
-                    .next
+                    })?;
+                let TaylorStep { next, degree, substeps, remainder } = found;
+                let time = *sample_time;
+                (next, Some(Discretisation::Taylor { time, degree, substeps, remainder }))
             }
         };
         let mode = Mode::new(graph, next, self.states.clone(), self.inputs.clone(), parameters);
+        let mode = match how {
+            Some(how) => mode.discretised(how),
+            None => mode,
+        };
         // The Taylor series has taken all its steps already.
         let repeats = matches!(self.equations, Equations::Next(_)) && self.hold > 1;
         Ok(if repeats { mode.held(self.hold) } else { mode })

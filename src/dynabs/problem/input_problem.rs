@@ -1,6 +1,7 @@
 //! A control problem whose actions are inputs.
 
 use super::builder::{InitialState, given, initial};
+use super::cost::{Cost, CostParts};
 use super::input_noise::{InputNoise, InputNoiseParts};
 use super::problem::Objective;
 use super::regions::Partition;
@@ -41,6 +42,8 @@ pub struct InputParts {
     pub task: Option<Task>,
     /// The state from which the guarantee is wanted; by default every ordinary cell is initial.
     pub initial_state: Option<Vec<f64>>,
+    /// What steps cost.
+    pub costs: Vec<CostParts>,
 }
 
 /// Which inputs there are to choose from.
@@ -72,6 +75,7 @@ pub struct InputProblem {
     horizon: Option<u64>,
     threshold: Option<Probability>,
     initial: Option<InitialState>,
+    costs: Vec<Cost>,
     warnings: Vec<Warning>,
 }
 
@@ -107,6 +111,7 @@ impl InputProblem {
         let noise = parts.noise.noise(n)?;
         let task = CheckedTask::new(&given(parts.task, "task")?, &grid, 1)?;
         let initial = parts.initial_state.map(|state| initial(state, &grid)).transpose()?;
+        let costs = parts.costs.iter().map(|cost| cost.cost(&parts.mode)).collect::<Result<_, _>>()?;
         let mut warnings = task.warnings;
         warnings.extend(noise.samples().iter().flat_map(|samples| samples.noise.warnings.iter().cloned()));
         if inputs.len() < given_inputs {
@@ -130,6 +135,7 @@ impl InputProblem {
             horizon: task.horizon,
             threshold: task.threshold,
             initial,
+            costs,
             warnings,
         })
     }
@@ -217,6 +223,11 @@ impl InputProblem {
     /// The cell of the initial state, if one was given.
     pub fn initial_cell(&self) -> Option<CellId> {
         self.initial.as_ref().map(|initial| initial.cell)
+    }
+
+    /// What steps cost.
+    pub fn costs(&self) -> &[Cost] {
+        &self.costs
     }
 
     /// What the user should know.

@@ -27,10 +27,12 @@
 
 mod automaton;
 mod builder;
+mod cost;
 mod distribution;
 mod dynamics;
 mod expression_dynamics;
 mod feedback_choice;
+mod grouping;
 mod input_noise;
 mod input_problem;
 mod input_set;
@@ -45,10 +47,12 @@ mod values;
 
 pub use automaton::{Leg, Logic, RegionParts, ShapeParts};
 pub use builder::ProblemBuilder;
+pub use cost::{Cost, CostParts};
 pub use distribution::DistributionParts;
 pub use dynamics::{Dynamics, GroupSteps, LinearDynamics};
 pub use expression_dynamics::{Constant, Equations, ExpressionDynamics};
 pub use feedback_choice::FeedbackChoice;
+pub use grouping::GroupingTrial;
 pub use input_noise::{Components, InputNoise, InputNoiseParts, JointGaussian, StepSamples};
 pub use input_problem::{InputChoice, InputParts, InputProblem};
 pub use input_set::InputSet;

@@ -155,6 +155,15 @@ impl SampledNoise {
 }
 
 impl NoiseSource {
+    /// Whether there are samples of steps that were grouped before: of one number of steps only.
+    pub(super) fn is_grouped(&self) -> bool {
+        match self {
+            Self::Samples(given) => given.of == SampleKind::Grouped,
+            Self::File(file) => file.of == SampleKind::Grouped,
+            Self::Drawn(_) => false,
+        }
+    }
+
     /// Samples of the noise of `d` steps of `system`.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! A control problem that is known to make sense.
 
-use super::{Dynamics, InputSet, Probabilities, ProblemBuilder, SampledNoise, Stabilizer};
+use super::{Dynamics, GroupingTrial, InputSet, Probabilities, ProblemBuilder, SampledNoise, Stabilizer};
 use crate::Warning;
 use crate::geometry::Polytope;
 use crate::partition::{CellId, CellLabels, Grid, Region};
@@ -16,6 +16,7 @@ pub struct Problem {
     pub(super) step_system: LinearSystem,
     pub(super) step_input: Polytope,
     pub(super) group_steps: usize,
+    pub(super) grouping: Vec<GroupingTrial>,
     pub(super) system: LinearSystem,
     pub(super) input: Polytope,
     pub(super) stabilizer: Option<Stabilizer>,
@@ -120,6 +121,11 @@ impl Problem {
     /// How many steps are grouped, `d`.
     pub fn group_steps(&self) -> usize {
         self.group_steps
+    }
+
+    /// What the numbers of steps could do that were thought of, the fewest first.
+    pub fn grouping(&self) -> &[GroupingTrial] {
+        &self.grouping
     }
 
     /// The grouped system.

@@ -85,6 +85,16 @@ pub enum Horizon {
     Steps(u64),
 }
 
+impl Horizon {
+    /// No more steps than this count.
+    pub(super) fn most(self) -> u64 {
+        match self {
+            Self::Infinite => u64::MAX,
+            Self::Steps(steps) => steps,
+        }
+    }
+}
+
 impl Task {
     /// To reach a union of boxes some time.
     pub fn reach(goal: Vec<RegionBox>) -> Self {

@@ -22,6 +22,9 @@ pub(super) fn model(material: &InputMaterial<'_>) -> String {
             text += &format!("<p>{title}:</p>\n<pre class=\"wide\">{}</pre>\n", escape(&lines(value)));
         }
     }
+    if let Some(how) = run.problem.mode().discretisation() {
+        text += &format!("<p>A step is {}.</p>\n", escape(&how.to_string()));
+    }
     text += &partition(scene);
     let periodic: Vec<&str> = scene
         .names

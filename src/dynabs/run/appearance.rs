@@ -143,12 +143,16 @@ pub(super) fn settle(directory: &Path) -> io::Result<()> {
 /// Whether a file in the directory of a run is one that a run can have: the others are the user's.
 fn is_own(name: &str) -> bool {
     const STEMS: [&str; 2] = ["model", "rows"];
-    let is_ours = |extension| {
-        extension == "props" || Format::ALL.iter().any(|format| format.extensions().contains(&extension))
+    let is_ours = |extension: &str| {
+        extension == "props"
+            || Format::ALL.iter().flat_map(|format| format.extensions()).any(|own| *own == extension)
     };
-    let parts = name.split_once('.');
-    [MANIFEST, PROBLEM, NOISE, SOLUTION].contains(&name)
-        || parts.is_some_and(|(stem, extension)| STEMS.contains(&stem) && is_ours(extension))
+    let is_part = |(stem, extension): (&str, &str)| match extension {
+        // Several structures have numbers.
+        "srew" | "trew" => STEMS.contains(&stem.trim_end_matches(|c: char| c.is_ascii_digit())),
+        extension => STEMS.contains(&stem) && is_ours(extension),
+    };
+    [MANIFEST, PROBLEM, NOISE, SOLUTION].contains(&name) || name.split_once('.').is_some_and(is_part)
 }
 
 /// Whether a file is one of the user's in the directory of a run, by its name.

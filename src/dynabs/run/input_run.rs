@@ -3,7 +3,7 @@
 use super::RunFiles;
 use super::appearance::{NATIVE_MODEL, NOISE, PROBLEM};
 use super::error::OpenError;
-use super::manifest::{GroupedHorizon, InputFile, Manifest};
+use super::manifest::{Coordinates, GroupedHorizon, InputFile, Manifest};
 use super::open::problem_document;
 use super::solution::{ON_LATTICE, input_solution_options, stored};
 use super::staging::{RunDirectoryError, Staging};
@@ -133,6 +133,11 @@ impl Manifest {
                 .map(|steps| GroupedHorizon { model_steps: steps * micro_steps, original_steps: steps }),
             group_steps: 1,
             micro_steps: Some(micro_steps),
+            coordinates: Some(Coordinates {
+                states: problem.mode().states().to_vec(),
+                inputs: problem.mode().inputs().to_vec(),
+            }),
+            discretisation: problem.mode().discretisation().map(ToString::to_string),
             property: abstraction.property(Resolution::Pmaxmin).to_string(),
             threshold: problem.threshold().map(Probability::to_f64),
             initial_state: problem.initial_state().map(<[f64]>::to_vec),
@@ -195,14 +200,15 @@ pub fn write_input_run(
 ) -> Result<Manifest, RunDirectoryError> {
     let mut staging = match exported {
         None => Staging::begin(target, options.force)?,
-        Some(InputModel { model, properties, .. }) => {
+        Some(InputModel { model, properties, costs, .. }) => {
             // What pruning leaves has the lower bound only.
             let asked = if manifest.pruning.is_some() { &properties[..1] } else { &properties[..] };
             let (mut staging, row_states) = begin_with_model(target, model, asked, options, progress)?;
             manifest.row_states = row_states;
             staging.write(NATIVE_MODEL, |out| native::write(model, out))?;
             staging.write("model.props", |out| {
-                asked.iter().try_for_each(|property| writeln!(out, "{property}"))
+                asked.iter().try_for_each(|property| writeln!(out, "{property}"))?;
+                costs.iter().try_for_each(|question| writeln!(out, "{question}"))
             })?;
             staging
         }

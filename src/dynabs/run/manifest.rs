@@ -7,6 +7,7 @@ use crate::abstraction::Abstraction;
 use crate::guarantee::Guarantee;
 use crate::model_file::Document;
 use crate::problem::Problem;
+use crate::system::Variable;
 use imdp::formats::prism::RAISED_LOWER_BOUND;
 use imdp::formats::sha256_hex;
 use imdp::model::StateId;
@@ -51,6 +52,12 @@ pub struct Manifest {
     /// How many steps of the model are one step of the system, where actions are inputs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub micro_steps: Option<u64>,
+    /// The coordinates of state and input with their units, where actions are inputs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coordinates: Option<Coordinates>,
+    /// How a differential equation became one step, if one did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub discretisation: Option<String>,
     /// How choices lead to cells in the model's files, where actions are inputs and it is not by the states of the lattice.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub encoding: Option<String>,
@@ -86,6 +93,15 @@ pub struct Manifest {
     pub inputs: Vec<InputFile>,
     /// The files written, but for this one.
     pub outputs: Vec<OutputFile>,
+}
+
+/// What numbers of state and input are about.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Coordinates {
+    /// The coordinates of the state.
+    pub states: Vec<Variable>,
+    /// The coordinates of the input.
+    pub inputs: Vec<Variable>,
 }
 
 /// A horizon in original and in model steps.
@@ -150,6 +166,8 @@ impl Manifest {
                 .map(|steps| GroupedHorizon { model_steps: steps, original_steps: steps * d }),
             group_steps: d,
             micro_steps: None,
+            coordinates: None,
+            discretisation: None,
             encoding: None,
             property: abstraction.property.to_string(),
             threshold: problem.threshold().map(Probability::to_f64),
@@ -191,6 +209,8 @@ impl Manifest {
             horizon: None,
             group_steps: 1,
             micro_steps: None,
+            coordinates: None,
+            discretisation: None,
             encoding: None,
             property: String::new(),
             threshold: None,

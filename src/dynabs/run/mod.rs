@@ -17,7 +17,7 @@ pub use appearance::NATIVE_MODEL;
 pub use error::OpenError;
 pub use files::RunFiles;
 pub use input_run::{InputRun, write_input_run};
-pub use manifest::{GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile};
+pub use manifest::{Coordinates, GroupedHorizon, InputFile, LayerReport, Manifest, OutputFile};
 pub use open::Run;
 pub use pruning::PruningReport;
 pub use record::{RecordError, open_record};

@@ -94,6 +94,9 @@ pub(super) fn begin_with_model(
             staging.write(&name, |out| writer.write(extension, out, progress))?;
             progress.finish();
         }
+        for file in writer.reward_files() {
+            staging.write(&format!("{stem}{}", file.suffix), |out| file.write(out))?;
+        }
     }
     let Some(encoded) = encoded.as_ref().filter(|_| !writers.is_empty()) else {
         return Ok((staging, None));

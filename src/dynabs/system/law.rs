@@ -1,6 +1,7 @@
 //! The affine feedback law that steers a state to a target, and how exactly it does so.
 
-use super::{LinearSystem, TwoLayer};
+use super::allocation::Allocation;
+use super::{Demands, LinearSystem, TwoLayer};
 use crate::geometry::Polytope;
 use crate::linear_algebra::ExactMatrix;
 use imdp::numeric::{Rational, UNIT_ROUNDOFF, from_decimal, rounding_factor, to_f64, to_f64_up};
@@ -28,11 +29,12 @@ pub struct SteeringConstraint {
 
 /// The law `u = M d + N x + c` with which the controller steers from `x` to the target `d`.
 ///
-/// - One layer: `u = B†(d − A x − q)`, so `M = B†`, `N = −B†A`, `c = −B†q`.
-/// - Two layers: `u = −K(x − x̄) + u′` with `u′ = B†(d − A_cl x − q_cl)`.
+/// - One layer: `u = ū + B†(d − A x − q − B ū)`, so `M = B†`, `N = −B†A`, `c = ū − B†(q + B ū)`.
+/// - Two layers: `u = −K(x − x̄) + u′` with `u′` as above for `A_cl`, `q_cl` and `U′`.
 ///
-/// `B† = Bᵀ(BBᵀ)⁻¹` is the Moore–Penrose right inverse. For more inputs than states the paper's `R⁻¹(d)`
-/// asks whether *some* input reaches `d`, while its controller applies this one; the constraints here
+/// `B†` is a right inverse of `B`, and `ū` an input, by which what is to be done is shared among the inputs according to the
+/// widths of `U` (or `U′`): see `Allocation`. For more inputs than states the paper's `R⁻¹(d)`
+/// asks whether *some* input reaches `d`, while its controller applies one; the constraints here
 /// are those of the law itself, so that `u ∈ U` holds for whatever is applied.
 ///
 /// The coefficients are computed in exact rationals, rounded once to doubles, and from then on taken as
@@ -55,12 +57,14 @@ pub struct Extent {
 }
 
 impl AffineMap {
-    fn steering(right_inverse: &ExactMatrix, system: &LinearSystem) -> Self {
-        Self {
-            target: right_inverse.clone(),
+    fn steering(system: &LinearSystem, input: &Polytope, demands: &Demands) -> Option<Self> {
+        let Allocation { right_inverse, center } = Allocation::new(system, input, demands)?;
+        let drift = system.q().plus(&system.b().times(&center));
+        Some(Self {
             state: right_inverse.times(system.a()).negated(),
-            constant: right_inverse.times(system.q()).negated(),
-        }
+            constant: center.minus(&right_inverse.times(&drift)),
+            target: right_inverse,
+        })
     }
 
     fn rounded(&self) -> Self {
@@ -86,15 +90,20 @@ impl AffineMap {
 }
 
 impl FeedbackLaw {
-    /// The law of `system`, with a stabilising lower layer if `two_layer` is given.
+    /// The law of `system` with inputs in `input`, with a stabilising lower layer if `two_layer` is given, made for
+    /// `demands`.
     ///
     /// `None` unless `B` has full row rank.
-    pub fn new(system: &LinearSystem, two_layer: Option<&TwoLayer>) -> Option<Self> {
-        let right_inverse = system.b().right_inverse()?;
+    pub fn new(
+        system: &LinearSystem,
+        input: &Polytope,
+        two_layer: Option<&TwoLayer>,
+        demands: &Demands,
+    ) -> Option<Self> {
         let (input, abstract_input) = match two_layer {
-            None => (AffineMap::steering(&right_inverse, system), None),
+            None => (AffineMap::steering(system, input, demands)?, None),
             Some(layers) => {
-                let upper = AffineMap::steering(&right_inverse, layers.closed_loop());
+                let upper = AffineMap::steering(layers.closed_loop(), layers.abstract_input(), demands)?;
                 let input = AffineMap {
                     target: upper.target.clone(),
                     state: upper.state.minus(layers.gain()),

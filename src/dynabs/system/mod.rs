@@ -3,6 +3,7 @@
 //! For steering to targets: linear systems, grouping of steps, LQR, the two-layer closed loop, the affine feedback
 //! law. For any system: [`expression`]s, [`Interval`]s, [`Mode`]s, and the [`ImageMap`] of cells under inputs.
 
+mod allocation;
 pub mod expression;
 mod feedback;
 mod gain;
@@ -13,10 +14,13 @@ mod law;
 mod linear_system;
 mod mode;
 mod partial_image;
+mod rehearsal;
 mod riccati;
 mod sampling;
 mod two_layer;
 
+pub use allocation::Demands;
+pub(crate) use allocation::rough_right_inverse;
 pub use feedback::Feedback;
 pub use gain::narrowing_gain;
 pub use grouping::{TooManyDigits, group, require_digits, smallest_group};
@@ -24,8 +28,8 @@ pub use image::{ImageError, ImageMap, ImageScratch, Lattice, LatticeRange};
 pub use interval::Interval;
 pub use law::{Extent, FeedbackLaw, SteeringConstraint, decimal_gain, lower_layer_violation};
 pub use linear_system::LinearSystem;
-pub use mode::{Mode, Variable};
+pub use mode::{Discretisation, Mode, Variable};
 pub use partial_image::PartialImage;
 pub use riccati::{Lqr, RiccatiError, spectral_radius};
-pub use sampling::{SampledLinear, SamplingError, TaylorError, TaylorStep, accumulated_covariance};
+pub use sampling::{SampledLinear, SamplingError, TaylorError, TaylorStep};
 pub use two_layer::TwoLayer;

@@ -5,6 +5,7 @@ use super::{Interval, LinearSystem};
 use crate::linear_algebra::ExactMatrix;
 use imdp::numeric::Rational;
 use num_traits::Zero;
+use serde::{Deserialize, Serialize};
 
 /// The map `x⁺ = f(x, u, θ)` of one mode, before noise is added.
 ///
@@ -16,16 +17,67 @@ pub struct Mode {
     states: Vec<Variable>,
     inputs: Vec<Variable>,
     parameters: Vec<Interval>,
+    discretisation: Option<Discretisation>,
     step: Tape,
 }
 
+/// How a differential equation became one step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Discretisation {
+    /// By the exponential of the matrices, whose entries are known exactly.
+    Exact {
+        /// How long a step takes.
+        time: f64,
+    },
+    /// By the exponential of the matrices, whose entries are enclosed.
+    Enclosed {
+        /// How long a step takes.
+        time: f64,
+    },
+    /// By a Taylor series with a bounded remainder.
+    Taylor {
+        /// How long a step takes.
+        time: f64,
+        /// The degree of the series.
+        degree: u32,
+        /// The number of sub-steps.
+        substeps: u32,
+        /// The width of the widest remainder of a sub-step.
+        remainder: f64,
+    },
+}
+
+impl std::fmt::Display for Discretisation {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Exact { time } => write!(f, "{time} of time, by the exponential of the matrices, exactly"),
+            Self::Enclosed { time } => {
+                write!(f, "{time} of time, by the exponential of the matrices, its entries enclosed")
+            }
+            Self::Taylor { time, degree, substeps, remainder } => write!(
+                f,
+                "{time} of time, by a Taylor series of degree {degree} in {substeps} sub-steps, each with a remainder of \
+                 width {remainder:.1e} that is part of the image"
+            ),
+        }
+    }
+}
+
 /// A coordinate of the state or of the input.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Variable {
     /// Its name.
     pub name: String,
     /// The unit that it is measured in.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
+}
+
+impl std::fmt::Display for Variable {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.name)?;
+        self.unit.as_ref().map_or(Ok(()), |unit| write!(f, " [{unit}]"))
+    }
 }
 
 impl Variable {
@@ -45,7 +97,17 @@ impl Mode {
         parameters: Vec<Interval>,
     ) -> Self {
         let step = Tape::new(&graph, &next);
-        Self { graph, next, states, inputs, parameters, step }
+        Self { graph, next, states, inputs, parameters, discretisation: None, step }
+    }
+
+    /// The same mode, which came from a differential equation in this way.
+    pub fn discretised(self, how: Discretisation) -> Self {
+        Self { discretisation: Some(how), ..self }
+    }
+
+    /// How a differential equation became this mode, if one did.
+    pub fn discretisation(&self) -> Option<&Discretisation> {
+        self.discretisation.as_ref()
     }
 
     /// The mode `x⁺ = A x + B u + q`.
@@ -74,7 +136,8 @@ impl Mode {
             let replacements: Vec<_> = next.iter().copied().map(Some).collect();
             next = self.next.iter().map(|&root| graph.substitute(root, &replacements)).collect();
         }
-        Self::new(graph, next, self.states.clone(), self.inputs.clone(), self.parameters.clone())
+        let held = Self::new(graph, next, self.states.clone(), self.inputs.clone(), self.parameters.clone());
+        Self { discretisation: self.discretisation, ..held }
     }
 
     /// The graph of the expressions.

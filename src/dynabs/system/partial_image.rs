@@ -57,6 +57,8 @@ impl FeedbackLaw {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Polytope;
+    use crate::system::Demands;
 
     #[test]
     fn halfway_to_the_target() {
@@ -69,7 +71,9 @@ mod tests {
             exact(2, 1, &[0.5, 1.0]),
             exact(2, 1, &[0.25, 0.0]),
         );
-        let law = FeedbackLaw::new(&group(&step, 2), None).unwrap();
+        let law =
+            FeedbackLaw::new(&group(&step, 2), &Polytope::from_box(&[], &[]), None, &Demands::default())
+                .unwrap();
         let extent = Extent { state: vec![10.0, 2.0], target: vec![10.0, 2.0] };
         let image = law.partial_image(&step, 1, &extent);
         let (x, d) = ([3.0, 1.0], [7.0, -1.0]);

@@ -46,7 +46,8 @@ pub enum EvaluationError {
     Product(String),
     /// The model has no such reward structure.
     #[error(
-        "the model has no reward structure {found}; its structures: {known} (.srew and .trew files beside a .tra file are read)"
+        "the model has no reward structure {found}; its structures: {known} (.srew and .trew files beside a .tra file are read; \
+         `prism … -exportmodel m.tra,sta,lab,srew,trew` writes them)"
     )]
     UnknownRewards {
         /// What was asked for.

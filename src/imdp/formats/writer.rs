@@ -163,9 +163,9 @@ impl<'a> ModelWriter<'a> {
     /// The reward structures that the format cannot hold, by name: they are not written.
     pub fn rewards_left_out(&self) -> Vec<&'a str> {
         let is_left_out = |structure: &&RewardStructure| match self.writer {
-            FormatWriter::Prism(_) | FormatWriter::Umb(..) => false,
+            FormatWriter::Native | FormatWriter::Prism(_) | FormatWriter::Umb(..) => false,
             FormatWriter::Drn(_) => !DrnWriter::holds(structure),
-            FormatWriter::Native | FormatWriter::Bmdp(_) | FormatWriter::Netcdf(_) => true,
+            FormatWriter::Bmdp(_) | FormatWriter::Netcdf(_) => true,
         };
         self.model.rewards().iter().filter(is_left_out).map(|structure| structure.name.as_str()).collect()
     }

@@ -10,6 +10,7 @@ mod ids;
 mod interval_mdp;
 mod labels;
 mod memory;
+mod narrow;
 mod restrict;
 mod rewards;
 mod rows;

@@ -30,6 +30,10 @@ pub struct InputModel {
     pub encoding: InputEncoding,
     /// The task, for the lower bound and for the upper one.
     pub properties: [Property; 2],
+    /// What is asked about costs, in PRISM's syntax: an upper and a lower bound on the least expected one for each.
+    pub costs: Vec<String>,
+    /// The states in which the controller acts, and their cells.
+    pub(super) acting: Vec<(StateId, u32)>,
 }
 
 impl InputAbstraction {
@@ -43,14 +47,14 @@ impl InputAbstraction {
         encoding: InputEncoding,
     ) -> Result<InputModel, FlatModelError> {
         let (question, initial) = (self.exported(), self.initial(initial));
-        let LandingModel { model, of_cell, micro_steps } = match encoding {
+        let LandingModel { model, of_cell, acting, micro_steps } = match encoding {
             InputEncoding::Landing => question.model(&initial)?,
             // Where an interval says less than a band does, intervals of cells may still say more.
             InputEncoding::Flat => self.question().flat_model(&initial)?,
         };
         let properties =
             [Resolution::Pmaxmin, Resolution::Pmaxmax].map(|resolution| self.task(resolution, micro_steps));
-        Ok(InputModel { model, of_cell, micro_steps, encoding, properties })
+        Ok(InputModel { model, of_cell, micro_steps, encoding, properties, costs: vec![], acting })
     }
 
     /// The task as a property of the model with the states of the lattice; with `Pmaxmin` its value is the lower bound,

@@ -4,6 +4,7 @@
 //! stored per transition, and the abstraction has bounds on both sides.
 
 mod correlated;
+mod costs;
 mod export;
 mod leaving;
 mod reach;
@@ -22,6 +23,7 @@ use crate::problem::{InputNoise, InputProblem};
 use crate::statistics::BudgetError;
 use crate::system::{ImageError, ImageMap, Lattice};
 use crate::task::CellTask;
+pub use costs::CostError;
 pub use export::{InputEncoding, InputModel};
 use imdp::model::{MemoryError, require_memory};
 use imdp::numeric::Rational;

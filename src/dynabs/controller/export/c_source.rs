@@ -4,6 +4,7 @@ use super::c_law::LawSource;
 use super::c_memory::MemorySource;
 use super::c_text::{comment, double, filled, identifier, list, promise};
 use crate::controller::Controller;
+use crate::controller::law::Law;
 use crate::partition::{CellId, CellKind};
 use crate::rendered::ended;
 use askama::Template;
@@ -91,10 +92,14 @@ pub fn c_source(controller: &Controller, name: &str, file: &str) -> Result<Strin
         LawSource::Steering(_) => ("STEER", "target_of", "x", format!("u[{upper}_GROUP][{upper}_INPUTS]")),
         LawSource::Centered(law) => ("APPLY", "input_of", "y", format!("u[{}]", law.array_inputs)),
     };
+    let mut sentences = controller.promise();
+    if let Law::Centered(law) = &controller.law {
+        sentences.push(comment(&law.words()));
+    }
     let source = ControllerSource {
         name: comment(name),
         version: env!("CARGO_PKG_VERSION"),
-        promise: promise(&controller.promise()),
+        promise: promise(&sentences),
         file: comment(file),
         function: format!("{prefix}_control"),
         states: controller.state_dimension(),

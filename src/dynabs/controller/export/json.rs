@@ -78,6 +78,8 @@ pub(super) fn law(controller: &Controller) -> Value {
         }),
         Law::Centered(law) => json!({
             "about": "u = nominal input of the action - K (x - center of the cell)",
+            "x": law.coordinates[0],
+            "u": law.coordinates[1],
             "nominal": if p == 0 { vec![] } else { table(&law.nominal, p) },
             "K": table(law.feedback.nearest_gain(), n),
         }),

@@ -85,32 +85,6 @@ impl SampledLinear {
     }
 }
 
-/// `∫₀ᵀ e^{As} Σ e^{Aᵀs} ds`: the covariance that white noise of intensity `Σ` (`n×n`) builds up over a step.
-///
-/// # Errors
-/// [`SamplingError`] if the step is too long.
-pub fn accumulated_covariance(
-    a: &ExactMatrix,
-    intensity: &ExactMatrix,
-    time: &Rational,
-) -> Result<Vec<Vec<Interval>>, SamplingError> {
-    let n = a.rows();
-    // exp([−A Σ; 0 Aᵀ] T) = [· G; 0 F] with F = e^{AᵀT}; the covariance is Fᵀ G (Van Loan 1978).
-    let block = ExactMatrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
-        (true, true) => -(a.get(i, j) * time),
-        (true, false) => intensity.get(i, j - n) * time,
-        (false, true) => Rational::zero(),
-        (false, false) => a.get(j - n, i - n) * time,
-    });
-    let exponential = exponential(&block)?;
-    let entry = |i: usize, j: usize| {
-        (0..n).fold(Interval::ZERO, |sum, k| {
-            sum + exponential.interval(n + k, n + i) * exponential.interval(k, n + j)
-        })
-    };
-    Ok((0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect())
-}
-
 impl NearMatrix {
     fn interval(&self, i: usize, j: usize) -> Interval {
         let entry = self.center.get(i, j);

@@ -5,5 +5,5 @@ mod taylor;
 #[cfg(test)]
 mod tests;
 
-pub use exponential::{SampledLinear, SamplingError, accumulated_covariance};
+pub use exponential::{SampledLinear, SamplingError};
 pub use taylor::{TaylorError, TaylorStep};

@@ -1,6 +1,6 @@
 //! Steps of differential equations against closed forms and fine integration.
 
-use super::{SampledLinear, TaylorError, TaylorStep, accumulated_covariance};
+use super::{SampledLinear, TaylorError, TaylorStep};
 use crate::linear_algebra::ExactMatrix;
 use crate::system::expression::{Graph, NodeId, Scope, Tape, parse};
 use crate::system::{Interval, LinearSystem, Variable};
@@ -48,18 +48,6 @@ fn exponentials_are_enclosed_tightly() {
     holds_tightly(sampled.entry(2, 4), (1.0 - (-14f64).exp()) / 20.0);
     assert!(!sampled.is_exact());
     assert!(SampledLinear::new(&system, &exact(10.0)).is_err());
-}
-
-#[test]
-fn white_noise_builds_up() {
-    // Ornstein and Uhlenbeck: σ²(1 − e^{−2aT})/2a; an integrated white noise: T³/3, T²/2, T.
-    let one = accumulated_covariance(&matrix(1, &[-2.0]), &matrix(1, &[3.0]), &exact(0.5)).unwrap();
-    holds_tightly(one[0][0], 3.0 * (1.0 - (-2.0f64).exp()) / 4.0);
-    let integrator = matrix(2, &[0.0, 1.0, 0.0, 0.0]);
-    let two = accumulated_covariance(&integrator, &matrix(2, &[0.0, 0.0, 0.0, 1.0]), &exact(0.3)).unwrap();
-    for (i, j, value) in [(0, 0, 0.009), (0, 1, 0.045), (1, 0, 0.045), (1, 1, 0.3)] {
-        holds_tightly(two[i][j], value);
-    }
 }
 
 fn rates(texts: &[&str], graph: &mut Graph) -> Vec<NodeId> {

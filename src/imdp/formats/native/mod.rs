@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! "DYNABS\r\n"  u32 version
-//! sections      u32 tag, u64 length in bytes, content; all of them, in the order below
+//! sections      u32 tag, u64 length in bytes, content; in the order below
 //! sha256        of everything before it, 32 bytes
 //! ```
 //!
@@ -23,6 +23,7 @@
 //! | 10 | actions | u8: 0 none, 1 named after rows, 2 by choice: u32 count, names, u32 per choice |
 //! | 11 | labels | u32 count; name and set each |
 //! | 12 | variables | u32 count; name and u8 each: 0 with i32 per state, 1 with a set |
+//! | 13 | rewards | only if there are any: u32 count; name, u8 and f64 per state, u8 and f64 per choice (each 1, or 0 and nothing), u32 count of choices whose branches earn something: u64 choice, u32 count and f64 per branch |
 //!
 //! A name is its length as u32 and UTF-8. Equal models give equal bytes.
 
@@ -54,4 +55,5 @@ enum Section {
     Actions,
     Labels,
     Variables,
+    Rewards,
 }

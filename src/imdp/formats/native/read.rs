@@ -7,8 +7,9 @@ use super::sections::Sections;
 use super::{NativeError, Section};
 use crate::files;
 use crate::model::{
-    ActionNames, Choices, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowId, RowRange, Rows,
-    StateId, StateSet, StateVariables, VariableValues, require_memory,
+    ActionNames, Choices, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RewardError,
+    RewardStructure, RowId, RowRange, Rows, StateId, StateSet, StateVariables, VariableValues,
+    require_memory,
 };
 
 /// Reads a model from a file that [`super::write_file`] has written.
@@ -42,8 +43,65 @@ pub fn read_from(source: impl Read, length: u64) -> Result<IntervalMdp, NativeEr
     let actions = read_actions(&mut sections)?;
     let labels = read_labels(&mut sections, states)?;
     let variables = read_variables(&mut sections, states)?;
+    let rewards = match sections.has_more() {
+        true => read_rewards(&mut sections, states as u64, choices.num_choices())?,
+        false => vec![],
+    };
+    let is_damaged = |error: RewardError, sections: &Sections<_>| sections.broken(error.to_string());
+    let model = IntervalMdp::new(Parts { kind, rows, choices, actions, initial, labels, variables });
+    // A file that is damaged is no other model.
+    let model = model.map(|model| {
+        let fits = |structure: &RewardStructure| branches_fit(&model, structure);
+        match rewards.iter().all(fits) {
+            true => model.with_rewards(rewards).map_err(|error| is_damaged(error, &sections)),
+            false => Err(sections.broken("a choice has not as many branches as earn something")),
+        }
+    });
     sections.finish()?;
-    Ok(IntervalMdp::new(Parts { kind, rows, choices, actions, initial, labels, variables })?)
+    model?
+}
+
+fn read_rewards(
+    sections: &mut Sections<impl Read>,
+    states: u64,
+    choices: u64,
+) -> Result<Vec<RewardStructure>, NativeError> {
+    sections.start(Section::Rewards)?;
+    let mut structures = vec![];
+    for _ in 0..sections.u32()? {
+        let mut structure = RewardStructure::new(sections.name()?);
+        for (count, values) in [(states, &mut structure.states), (choices, &mut structure.choices)] {
+            match sections.bytes()? {
+                [0] => {}
+                [1] => *values = sections.array(count, f64::from_le_bytes)?,
+                [other] => return Err(sections.broken(format!("there are no rewards of kind {other}"))),
+            }
+        }
+        for _ in 0..sections.u32()? {
+            let choice = u64::from_le_bytes(sections.bytes()?);
+            let count = sections.u32()?;
+            let of_branches = sections.array(u64::from(count), f64::from_le_bytes)?;
+            if structure.branches.insert(choice, of_branches).is_some() {
+                return Err(sections.broken(format!("branches of choice {choice} come twice")));
+            }
+        }
+        structures.push(structure);
+    }
+    Ok(structures)
+}
+
+/// Whether every choice has as many branches as earn something.
+fn branches_fit(model: &IntervalMdp, structure: &RewardStructure) -> bool {
+    if structure.branches.is_empty() {
+        return true;
+    }
+    let first = model.choices().first_choices();
+    let lengths = StateId::first(model.num_states()).flat_map(|state| {
+        let rows = model.choices().rows(state).map(|row| model.rows().row_len(row));
+        (first[state.index()]..).zip(rows)
+    });
+    let lengths: std::collections::BTreeMap<u64, usize> = lengths.collect();
+    structure.branches.iter().all(|(choice, of_branches)| lengths.get(choice) == Some(&of_branches.len()))
 }
 
 fn read_rows(sections: &mut Sections<impl Read>) -> Result<Rows, NativeError> {

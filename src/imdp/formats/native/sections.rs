@@ -57,6 +57,11 @@ impl<R: Read> Sections<R> {
         Ok(())
     }
 
+    /// Whether another section follows.
+    pub(super) fn has_more(&self) -> bool {
+        self.left > self.section_left
+    }
+
     fn end(&self) -> Result<(), NativeError> {
         match self.section_left {
             0 => Ok(()),

@@ -8,7 +8,8 @@ use sha2::{Digest, Sha256};
 use super::{MAGIC, Section, VERSION};
 use crate::files::Outputs;
 use crate::model::{
-    ActionNames, IntervalMdp, Labels, ModelKind, StateId, StateSet, StateVariables, VariableValues,
+    ActionNames, IntervalMdp, Labels, ModelKind, RewardStructure, Rewards, StateId, StateSet, StateVariables,
+    VariableValues,
 };
 
 /// Writes a model to a file, `model.dynabs` by custom, which appears or is replaced as a whole.
@@ -62,6 +63,9 @@ pub fn write(model: &IntervalMdp, out: &mut impl Write) -> io::Result<()> {
     out.actions(model.actions())?;
     out.labels(model.labels(), states)?;
     out.variables(model.variables(), states)?;
+    if !model.rewards().is_empty() {
+        out.rewards(model.rewards())?;
+    }
 
     let digest = out.hash.finalize();
     out.out.write_all(&digest)?;
@@ -134,6 +138,33 @@ impl<W: Write> Hashing<'_, W> {
                 self.array(ids.iter().map(|id| id.to_le_bytes()))
             }
         }
+    }
+
+    fn rewards(&mut self, rewards: &Rewards) -> io::Result<()> {
+        let branches = |of_branches: &Vec<f64>| 12 + 8 * of_branches.len() as u64;
+        let length = |structure: &RewardStructure| {
+            let values = (structure.states.len() + structure.choices.len()) as u64;
+            name_bytes(&structure.name)
+                + 6
+                + 8 * values
+                + structure.branches.values().map(branches).sum::<u64>()
+        };
+        self.section(Section::Rewards, 4 + rewards.iter().map(length).sum::<u64>())?;
+        self.write_all(&(rewards.iter().len() as u32).to_le_bytes())?;
+        for structure in rewards.iter() {
+            self.name(&structure.name)?;
+            for values in [&structure.states, &structure.choices] {
+                self.write_all(&[u8::from(!values.is_empty())])?;
+                self.array(values.iter().map(|value| value.to_le_bytes()))?;
+            }
+            self.write_all(&(structure.branches.len() as u32).to_le_bytes())?;
+            for (choice, of_branches) in &structure.branches {
+                self.write_all(&choice.to_le_bytes())?;
+                self.write_all(&(of_branches.len() as u32).to_le_bytes())?;
+                self.array(of_branches.iter().map(|value| value.to_le_bytes()))?;
+            }
+        }
+        Ok(())
     }
 
     fn labels(&mut self, labels: &Labels, states: usize) -> io::Result<()> {

@@ -1,0 +1,46 @@
+//! `dynabs-check explain`: why the bound of a run is low, and what to change.
+
+use crate::run_source::{Refined, refine};
+use crate::{Bars, CliError, print};
+use clap::Args;
+use dynabs::explain::explain;
+use imdp::progress::Progress;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+
+/// What to explain.
+#[derive(Clone, Debug, Args)]
+pub struct ExplainArguments {
+    /// A directory written by dynabs-compile.
+    directory: PathBuf,
+
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+
+    /// Print no progress.
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// [`CliError`], which knows its exit code.
+pub fn run(arguments: &ExplainArguments) -> Result<ExitCode, CliError> {
+    let bars = Arc::new(Bars::new(arguments.quiet));
+    let Refined { run, answer, controller } = refine(&arguments.directory, &bars)?;
+    let explanation = explain(&run.problem, &run.abstraction, &answer, &controller, &*bars);
+    if bars.is_interrupted() {
+        return Err(CliError::Interrupted);
+    }
+    if arguments.json {
+        let object = serde_json::to_string_pretty(&explanation)
+            .map_err(|error| CliError::Failure(format!("the explanation has no JSON form: {error}")))?;
+        print(&format!("{object}\n"))?;
+    } else {
+        print(&explanation.to_string())?;
+    }
+    Ok(ExitCode::SUCCESS)
+}

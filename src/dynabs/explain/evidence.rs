@@ -1,0 +1,36 @@
+//! What the bound would be with more samples.
+
+use super::Reason;
+use crate::abstraction::Abstraction;
+use crate::problem::Problem;
+use imdp::model::{IntervalMdp, require_memory};
+use imdp::solver::{Answer, SolverOptions};
+
+/// A bound this near to that of all samples in the world is not the samples' fault.
+const NEAR: f64 = 0.01;
+/// Intervals are narrowed by these factors, to find the first that is enough.
+const FACTORS: [f64; 6] = [0.7, 0.5, 0.35, 0.25, 0.1, 0.05];
+/// Bytes of an entry of a stored row.
+const ENTRY: u64 = 24;
+
+/// The value with probabilities in the middle of their intervals, and the number of samples that would bring the bound
+/// near to it; nothing if the model is too large to be narrowed, or if the value is the bound.
+pub(super) fn weigh(problem: &Problem, abstraction: &Abstraction, answer: &Answer) -> Option<Reason> {
+    let model = &abstraction.model;
+    require_memory("rows with narrower intervals", model.rows().num_entries() as u64 * ENTRY).ok()?;
+    let value = |model: &IntervalMdp| {
+        let options = SolverOptions { epsilon: 1e-4, ..SolverOptions::default() };
+        Some(Answer::new(model, &abstraction.property, &options).ok()?.lower)
+    };
+    let exact = value(&model.narrowed(0.0).ok()?)?;
+    if exact - answer.lower < NEAR {
+        return None;
+    }
+    let enough = FACTORS.into_iter().find(|&factor| {
+        model.narrowed(factor).ok().and_then(|model| value(&model)).is_some_and(|value| exact - value < NEAR)
+    });
+    let samples = problem.noise().samples.len();
+    // Intervals narrow like one over the root of the number of samples.
+    let needed = enough.map(|factor| (samples as f64 / (factor * factor)).ceil() as u64);
+    Some(Reason::Samples { exact, samples, needed })
+}

@@ -1,0 +1,86 @@
+//! Where runs end that do not succeed, and how far noise reaches.
+
+use super::{Loss, Reason, Spread};
+use crate::controller::{Controller, End, Noise, Simulation};
+use crate::problem::Problem;
+use imdp::numeric::to_f64;
+use imdp::progress::Progress;
+use std::collections::BTreeMap;
+
+/// So many runs show what happens in one of a hundred.
+const RUNS: u64 = 2000;
+/// Runs of unbounded tasks are given up after this many steps.
+const MOST_STEPS: u64 = 10_000;
+/// Less than this is not worth a line.
+const RARE: f64 = 0.002;
+
+/// Where runs from the initial state end, with noise drawn from what is known of it.
+pub(super) fn simulate(
+    problem: &Problem,
+    controller: &Controller,
+    progress: &dyn Progress,
+) -> Option<Reason> {
+    let start = problem.initial_state()?;
+    let simulation = Simulation::new(problem, controller, Noise::of(problem.noise()), MOST_STEPS);
+    progress.start("runs to explain", RUNS);
+    let mut ends: BTreeMap<String, u64> = BTreeMap::new();
+    let mut good = 0;
+    for run in 0..RUNS {
+        let trajectory = simulation.trajectory(start, 0, run);
+        let outcome = &trajectory.outcome;
+        let last = trajectory.steps.last().map(|step| step.state.as_slice()).unwrap_or_default();
+        let end = match outcome.end {
+            _ if outcome.satisfied => None,
+            End::Outside => Some(face(problem, last)),
+            End::Unsafe => Some("meet an unsafe region".to_owned()),
+            End::NoAction => Some("come to a cell in which nothing is enabled".to_owned()),
+            End::Over | End::Unfinished => Some("run out of time".to_owned()),
+            End::Reached if outcome.unsafe_between => {
+                Some("meet something unsafe between grouped steps".to_owned())
+            }
+            End::Reached => None,
+        };
+        match end {
+            None => good += 1,
+            Some(end) => *ends.entry(end).or_default() += 1,
+        }
+        progress.advance(1);
+    }
+    progress.finish();
+    let share = |count: u64| count as f64 / RUNS as f64;
+    let mut losses: Vec<Loss> =
+        ends.into_iter().map(|(end, count)| Loss { end, share: share(count) }).collect();
+    losses.retain(|loss| loss.share >= RARE);
+    losses.sort_by(|one, other| other.share.total_cmp(&one.share));
+    Some(Reason::Losses { simulated: share(good), losses })
+}
+
+/// The face of the partition that a state outside is farthest beyond, in cells.
+fn face(problem: &Problem, x: &[f64]) -> String {
+    let beyond = problem.grid().axes().iter().zip(x).enumerate().flat_map(|(j, (axis, &x))| {
+        let (lower, upper, width) = (to_f64(axis.lower()), to_f64(axis.upper()), to_f64(axis.width()));
+        [
+            ((lower - x) / width, format!("x{} < {lower}", j + 1)),
+            ((x - upper) / width, format!("x{} ≥ {upper}", j + 1)),
+        ]
+    });
+    let farthest = beyond.max_by(|(one, _), (other, _)| one.total_cmp(other));
+    farthest.map_or_else(
+        || "leave the partition".to_owned(),
+        |(_, face)| format!("leave the partition at {face}"),
+    )
+}
+
+/// The standard deviation of the noise of one grouped step, per dimension, in cells.
+pub(super) fn spreads(problem: &Problem) -> Vec<Spread> {
+    let samples = &problem.noise().samples;
+    let count = samples.len().max(1) as f64;
+    let widths = problem.grid().widths();
+    (0..samples.dimension())
+        .map(|j| {
+            let mean = samples.iter().map(|sample| sample[j]).sum::<f64>() / count;
+            let variance = samples.iter().map(|sample| (sample[j] - mean).powi(2)).sum::<f64>() / count;
+            Spread { deviation: variance.sqrt() / widths[j], cells: problem.grid().axes()[j].cells() }
+        })
+        .collect()
+}
