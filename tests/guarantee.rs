@@ -1,8 +1,11 @@
 //! The one claim: its JSON, its words, and what a sweep costs.
 
-use crate::common::{abstraction, problem, reference_mode};
+use crate::common::{abstraction, problem, reference_mode, root};
+use assert_cmd::Command;
 use dynabs::guarantee::{Bound, Guarantee};
 use serde_json::Value;
+use std::fs;
+use tempfile::TempDir;
 
 /// What must not depend on the samples, each by the name that it has in the lists.
 const FIXED: [&str; 10] =
@@ -74,4 +77,48 @@ fn the_same_type_everywhere() {
     let json: Value = serde_json::to_value(abstraction("room_temperature", &[]).guarantee).unwrap();
     assert!(json["covers"].as_str().unwrap().contains("failed"));
     assert!(json["assumes"].as_array().unwrap().len() >= 3);
+}
+
+/// Whoever sees the number, in whatever form, is told what it rests on and what had to be fixed before.
+#[test]
+fn every_output_carries_the_statement() {
+    let scratch = TempDir::new().unwrap();
+    let path = |name: &str| scratch.path().join(name).display().to_string();
+    let run = |program: &str, arguments: &[&str]| {
+        let output = Command::cargo_bin(program).unwrap().args(arguments).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let model = root().join("models/room_temperature.json").display().to_string();
+    let sweep = ["--set", "/probabilities/sweep=5"];
+    let summary = run("dynabs-compile", &[&[&*model, "-o", &path("run"), "--no-tra"], &sweep[..]].concat());
+    run("dynabs-check", &["report", &path("run"), "-o", &path("page.html"), "--runs", "50", "-q"]);
+    run("dynabs-check", &["controller", &path("run"), "-o", &path("c.c"), "-q"]);
+    run("dynabs-check", &["controller", &path("run"), "-o", &path("c.json"), "-q"]);
+    let read = |name: &str| fs::read_to_string(scratch.path().join(name)).unwrap();
+    let spent: f64 = {
+        let manifest: Value = serde_json::from_str(&read("run/manifest.json")).unwrap();
+        let samples = &manifest["guarantee"]["evidence"];
+        assert_eq!((samples["beta"].as_f64(), samples["sweep"].as_u64()), (Some(0.01), Some(5)));
+        samples["budget"].as_array().unwrap().iter().map(|family| family["beta"].as_f64().unwrap()).sum()
+    };
+    assert!((spent - 0.002).abs() < 1e-15, "{spent}");
+    let page = read("page.html").replace("&#39;", "'").replace("&#x27;", "'");
+    let texts = [
+        ("summary", summary),
+        ("manifest", read("run/manifest.json")),
+        ("page", page),
+        ("C", read("c.c").replace("\n *", "")),
+        ("JSON", read("c.json")),
+    ];
+    for (name, text) in texts {
+        for fixed in FIXED {
+            assert!(
+                text.contains(fixed) || text.contains(&fixed.replace('\'', "_")),
+                "{name}: {fixed}: {text}"
+            );
+        }
+        assert!(text.contains("0.99"), "{name}: {text}");
+        assert!(name == "manifest" || text.contains("5 settings"), "{name}: {text}");
+    }
 }

@@ -47,5 +47,6 @@ mod steering;
 mod systems;
 mod tasks;
 mod type_names;
+mod validate;
 mod values;
 mod verify;

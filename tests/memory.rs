@@ -3,7 +3,7 @@
 
 use crate::common::{abstraction, root};
 use assert_cmd::cargo::cargo_bin;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::path::Path;
 use std::process::{Command, Output};
 use tempfile::TempDir;
@@ -72,7 +72,7 @@ fn a_dry_run_shows_what_it_takes() {
 }
 
 /// Rows fit into their estimate, which is not so large that what fits is refused: grids are coarse in some dimensions. (Rows of
-/// actions that need room in between are limited by themselves.)
+/// actions that need room in between are estimated by themselves.)
 #[test]
 fn rows_take_about_what_was_estimated() {
     for name in ["predecessors/building_1_zone", "double_integrator", "spacecraft_aligned"] {
@@ -85,6 +85,70 @@ fn rows_take_about_what_was_estimated() {
             "{name}: {entries} entries, {estimate} estimated"
         );
     }
+}
+
+/// A problem whose actions are inputs.
+fn inputs(directory: &Path, change: impl FnOnce(&mut Value)) -> String {
+    let side = |from: f64, to: f64| json!([{"lower": [from, -10], "upper": [to, 10]}]);
+    let mut value = json!({
+        "name": "inputs",
+        "dynamics": {"A": [[0.9, 0], [0, 0.9]], "B": [[1, 0], [0, 1]]},
+        "noise": {"components": [{"gaussian": {"deviation": 1}}, {"gaussian": {"deviation": 1}}]},
+        "input": {"lower": [-1, -1], "upper": [1, 1], "points": [2, 2]},
+        "partition": {"lower": [-10, -10], "upper": [10, 10], "cells": [20, 20]},
+        "regions": {"a": side(-9.0, -7.0), "b": side(-5.0, -3.0), "c": side(3.0, 5.0), "d": side(7.0, 9.0)},
+        "task": {"type": "formula", "formula": "F (a & F (b & F (c & F d)))", "horizon": 3}
+    });
+    change(&mut value);
+    let path = directory.join("inputs.json");
+    std::fs::write(&path, value.to_string()).unwrap();
+    path.display().to_string()
+}
+
+/// Every part of a problem whose actions are inputs has a field to change.
+#[test]
+fn parts_of_inputs_are_refused_by_field() {
+    let scratch = TempDir::new().unwrap();
+    let refused = |kib: u32, arguments: &[&str], words: &[&str], change: fn(&mut Value)| {
+        let path = inputs(scratch.path(), change);
+        let output = limited(kib, scratch.path(), "dynabs-compile", &[&[&*path], arguments].concat());
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert!(words.iter().all(|word| error.contains(word)), "{words:?}: {error}");
+        assert!(!scratch.path().join("out").exists());
+    };
+    refused(
+        400_000,
+        &["--dry-run"],
+        &["/task: found what the task remembers in all cells", "MiB"],
+        |value| {
+            value["partition"]["cells"] = json!([1200, 1200]);
+        },
+    );
+    refused(700_000, &["--dry-run"], &["/partition/cells: found the boxes of the noise", "MiB"], |value| {
+        value["noise"] = json!({"gaussian": {"covariance": [[4, 0], [0, 4]]}, "count": 3000, "seed": 1});
+        value["actions"] = "inputs".into();
+        value["partition"]["cells"] = json!([40, 40]);
+        value["partition"]["resolution"] = json!([64, 64]);
+    });
+    refused(330_000, &["-o", "out"], &["the model of the lattice", "/partition/cells", "MiB"], |value| {
+        value["partition"]["cells"] = json!([200, 200]);
+    });
+}
+
+#[test]
+fn dry_runs_show_what_inputs_and_rooms_take() {
+    let scratch = TempDir::new().unwrap();
+    let shown = |model: &str, words: &[&str]| {
+        let output = limited(8_000_000, scratch.path(), "dynabs-compile", &[model, "--dry-run"]);
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        let line =
+            text.lines().find(|line| line.starts_with("  memory ")).unwrap_or_else(|| panic!("{text}"));
+        assert!(words.iter().all(|word| line.contains(word)), "{words:?}: {line}");
+    };
+    let path = inputs(scratch.path(), |_| {});
+    shown(&path, &["the cells", "what the task remembers", "the images of all cells", "available"]);
+    shown(&model("every_step/spacecraft_disaligned"), &["rows for actions that need room in between"]);
 }
 
 /// Without any limit but the machine's, a typo is refused before anything is done for every cell.

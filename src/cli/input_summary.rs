@@ -201,13 +201,18 @@ pub(super) fn summary(problem: &InputProblem, abstraction: &InputAbstraction) ->
     match &abstraction.evidence {
         Evidence::Samples(samples) => {
             line("noise", format!("{}, from {} samples", kind(samples), thousands(samples.number)));
-            let confidence =
+            let guarantee =
                 Guarantee { event: Event::of_inputs(problem), evidence: abstraction.evidence.clone() };
-            let confidence = confidence.confidence().map(shortest_decimal).unwrap_or_default();
-            line("bounds", format!("hold together with confidence {confidence}"));
+            let confidence = guarantee.confidence().map(shortest_decimal).unwrap_or_default();
+            let sweep = match samples.sweep {
+                1 => String::new(),
+                settings => format!(", of {settings} settings together"),
+            };
+            line("bounds", format!("hold together with confidence {confidence}{sweep}"));
             let spent = |a: &Allocation| format!("{} {:.2e} over {} events", a.family, a.beta, a.events);
             line("budget", samples.budget.iter().map(spent).collect::<Vec<_>>().join(", "));
             line("unseen mass", format!("at most {:.6}", samples.unseen_mass));
+            line("fixed", crate::summary::fixed_beforehand(&guarantee));
         }
         Evidence::Known { unlisted } => {
             let noise = |j: usize| {

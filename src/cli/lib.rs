@@ -16,6 +16,7 @@ mod run_source;
 mod signals;
 mod simulation_noise;
 mod simulation_report;
+mod simulation_start;
 mod start;
 mod summary;
 mod threads;

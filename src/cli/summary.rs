@@ -2,8 +2,10 @@
 
 use super::thousands;
 use dynabs::abstraction::Footprint;
+use dynabs::guarantee::Guarantee;
 use dynabs::run::Manifest;
 use imdp::model::available_memory;
+use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 /// How much memory a compilation was expected to take, part by part, and what there is.
@@ -15,6 +17,18 @@ pub(super) fn memory(footprint: &Footprint) -> String {
         .map_or(String::new(), |(bytes, limit)| format!("; {} available ({limit})", thousands(bytes >> 20)));
     let name = "memory";
     format!("  {name:<13}about {} MiB: {}{available}\n", mib(footprint.bytes()), parts.join(", "))
+}
+
+/// The same for programs.
+pub(super) fn memory_json(footprint: &Footprint) -> Value {
+    let available = available_memory().map(|(bytes, _)| bytes);
+    json!({"needs": footprint.needs(), "bytes": footprint.bytes(), "available": available})
+}
+
+/// What must not have been chosen by looking at the samples, on a line of its own.
+pub(super) fn fixed_beforehand(guarantee: &Guarantee) -> String {
+    let list = guarantee.fixed_beforehand();
+    if list.is_empty() { String::new() } else { format!("whatever the samples: {}", list.join(", ")) }
 }
 
 /// The summary of a run; `directory` is where it was written, if it was.
@@ -63,6 +77,7 @@ pub(super) fn summary(manifest: &Manifest, directory: Option<&str>) -> String {
                 .collect();
             line("budget", split.join(", "));
             line("unseen mass", format!("at most {:.6}", samples.unseen_mass));
+            line("fixed", fixed_beforehand(&manifest.guarantee));
         }
         _ => line("intervals", "those of the published tool: for comparison, not a guarantee".into()),
     }

@@ -8,6 +8,7 @@ use super::explain::{ExplainArguments, run as explain};
 use super::report::{ReportArguments, run as report};
 use super::simulate::{SimulateArguments, run as simulate};
 use super::solve::{SolveArguments, run as solve};
+use super::validate::{ValidateArguments, run as validate};
 use super::verify::{VerifyArguments, run as verify};
 use crate::{CliError, use_threads};
 use clap::{Parser, Subcommand};
@@ -35,6 +36,8 @@ enum Command {
     Simulate(SimulateArguments),
     /// Say why the bound of a compiled model is low, and what to change.
     Explain(ExplainArguments),
+    /// Run the closed loop with fresh samples, each once, and say what that proves.
+    Validate(ValidateArguments),
     /// Check a certificate of `solve --certificate` in exact arithmetic; exit code 1 if it is rejected.
     Verify(VerifyArguments),
     /// Write a model in another format, or with one state per row.
@@ -63,6 +66,7 @@ pub fn run(arguments: &CheckArguments) -> Result<ExitCode, CliError> {
         Command::Controller(arguments) => controller(arguments),
         Command::Simulate(arguments) => simulate(arguments),
         Command::Explain(arguments) => explain(arguments),
+        Command::Validate(arguments) => validate(arguments),
         Command::Verify(arguments) => verify(arguments),
         Command::Convert(arguments) => convert(arguments),
         Command::Report(arguments) => report(arguments),

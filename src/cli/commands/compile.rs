@@ -4,7 +4,7 @@ use super::compile_inputs;
 use super::solve::LimitArguments;
 use crate::choices::format_names;
 use crate::results::{PropertyResult, exit_code, table};
-use crate::summary::{memory, summary};
+use crate::summary::{memory, memory_json, summary};
 use crate::{Bars, CliError, EncodingName, print, use_threads, warn};
 use clap::Parser;
 use dynabs::abstraction::{Abstraction, Footprint, compile};
@@ -15,7 +15,7 @@ use dynabs::problem::Problem;
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, solution_options, write_run};
 use imdp::files::{self, Outputs};
 use imdp::formats::Format;
-use imdp::model::{IntervalMdp, available_memory};
+use imdp::model::IntervalMdp;
 use imdp::property::{Property, Verdict};
 use imdp::solver::{Answer, Pruned};
 use serde_json::{Value, json};
@@ -168,6 +168,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
                 prune: arguments.prune,
                 json: arguments.json,
                 quiet: arguments.quiet,
+                dry_run: arguments.dry_run,
             };
             let sources = (&document, source.as_str());
             return compile_inputs::compile_inputs(sources, &problem, &wanted, notes, start, &bars);
@@ -346,10 +347,7 @@ fn report(
         if let Value::Object(object) = &mut object {
             object.insert("seconds".to_owned(), Value::Object(times));
             if arguments.dry_run {
-                let available = available_memory().map(|(bytes, _)| bytes);
-                let memory =
-                    json!({"needs": footprint.needs(), "bytes": footprint.bytes(), "available": available});
-                object.insert("memory".to_owned(), memory);
+                object.insert("memory".to_owned(), memory_json(footprint));
             }
             if !results.is_empty() {
                 object.insert("results".to_owned(), json!(results));

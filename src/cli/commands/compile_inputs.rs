@@ -2,6 +2,7 @@
 
 use super::compile::pruned;
 use crate::input_summary::{InputResult, summary};
+use crate::summary::{memory, memory_json};
 use crate::{Bars, CliError, print, warn};
 use dynabs::abstraction::inputs::{CostError, InputAbstraction, InputEncoding, InputModel, InputsError};
 use dynabs::landing::FlatModelError;
@@ -29,6 +30,8 @@ pub(super) struct Wanted<'a> {
     pub(super) prune: bool,
     pub(super) json: bool,
     pub(super) quiet: bool,
+    /// Whether nothing is written, so that what it would take is of interest.
+    pub(super) dry_run: bool,
 }
 
 /// Abstracts, solves and reports.
@@ -94,7 +97,7 @@ pub(super) fn compile_inputs(
     if wanted.json {
         let seconds: Map<String, Value> =
             phases.iter().map(|(name, time)| ((*name).to_owned(), time.as_secs_f64().into())).collect();
-        let object = json!({
+        let mut object = json!({
             "cells": problem.grid().num_cells(),
             "inputs": problem.inputs().len(),
             "choices": abstraction.num_choices(),
@@ -103,11 +106,17 @@ pub(super) fn compile_inputs(
             "result": result,
             "seconds": seconds,
         });
+        if wanted.dry_run {
+            object["memory"] = memory_json(&abstraction.footprint);
+        }
         print(&format!("{object:#}\n"))?;
     } else if !wanted.quiet {
         let initial =
             if problem.initial_state().is_some() { "at the initial state" } else { "over all cells" };
         let mut text = summary(problem, &abstraction);
+        if wanted.dry_run {
+            text += &memory(&abstraction.footprint);
+        }
         if let Some((output, _)) = &wanted.output {
             let bytes: u64 = manifest.outputs.iter().map(|file| file.bytes).sum();
             text += &format!("  {:<13}{} ({:.1} MB)\n", "written", output.display(), bytes as f64 / 1e6);
@@ -140,9 +149,9 @@ fn export(
     let start = Instant::now();
     let model = abstraction.model(problem.initial_cell(), wanted.encoding);
     let mut model = model.map_err(|error| match error {
-        FlatModelError::Memory(_) => {
-            CliError::Input(format!("{error}\n  Use --encoding plain, or fewer cells."))
-        }
+        FlatModelError::Memory(_) => CliError::Input(format!(
+            "{error}\n  Use fewer /partition/cells, --encoding plain, or --no-tra for no model."
+        )),
         FlatModelError::Model(_) => CliError::Failure(error.to_string()),
     })?;
     if wanted.prune && !problem.costs().is_empty() {

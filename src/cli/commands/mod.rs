@@ -11,4 +11,5 @@ pub mod explain;
 pub mod report;
 pub mod simulate;
 pub mod solve;
+pub mod validate;
 pub mod verify;

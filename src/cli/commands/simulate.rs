@@ -4,11 +4,11 @@ use crate::exports::replace;
 use crate::run_source::Controlled;
 use crate::simulation_noise::{ChosenNoise, NoiseArguments, SaidOfNoise, noise};
 use crate::simulation_report::{Report, Simulated};
+use crate::simulation_start::{probability, start};
 use crate::trajectories::write_trajectories;
 use crate::{Bars, CliError, print, print_json};
 use clap::Args;
 use dynabs::controller::{ParameterChoice, Simulation};
-use dynabs::partition::{CellLookup, Grid};
 use imdp::progress::Progress;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -87,11 +87,6 @@ impl From<Parameters> for ParameterChoice {
     }
 }
 
-fn probability(text: &str) -> Result<f64, String> {
-    let number = text.parse::<f64>().ok().filter(|p| (0.5..1.0).contains(p));
-    number.ok_or_else(|| "expected a number from 0.5 up to, but not including, 1".to_owned())
-}
-
 /// Runs the subcommand: exit code 0 if nothing is wrong, 1 if the simulation contradicts the promise, 3 if it was
 /// interrupted, 4 if an input left `U`.
 ///
@@ -101,7 +96,7 @@ pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
     let run = Controlled::open(&arguments.directory, &bars)?;
     let controller = run.controller();
-    let start = start(arguments, run.grid(), run.initial_state())?;
+    let start = start(arguments.from.as_deref(), run.grid(), run.initial_state())?;
     let (simulation, noise) = match &run {
         Controlled::Targets(refined) => {
             let ChosenNoise { noise, said } = noise(&arguments.noise, &refined.run)?;
@@ -136,30 +131,4 @@ pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, CliError> {
     }
     report.warn();
     report.outcome()
-}
-
-/// The state that runs start in.
-fn start(arguments: &SimulateArguments, grid: &Grid, initial: Option<&[f64]>) -> Result<Vec<f64>, CliError> {
-    let n = grid.dimension();
-    let Some(text) = &arguments.from else {
-        return initial.map(<[f64]>::to_vec).ok_or_else(|| {
-            let example = vec!["0"; n].join(",");
-            CliError::Input(format!(
-                "--from: found nothing, and the model has no initial state; expected {n} numbers such as --from={example}"
-            ))
-        });
-    };
-    let numbers: Option<Vec<f64>> =
-        text.split(',').map(|x| x.trim().parse().ok().filter(|x: &f64| x.is_finite())).collect();
-    let Some(x) = numbers.filter(|x| x.len() == n) else {
-        return Err(CliError::Input(format!(
-            "--from: found \"{text}\"; expected {n} numbers separated by commas, one per dimension of the state"
-        )));
-    };
-    if CellLookup::new(grid).locate(&x).is_none() {
-        return Err(CliError::Input(format!(
-            "--from: found \"{text}\", outside the partition; expected a state in it, for which something is promised"
-        )));
-    }
-    Ok(x)
 }

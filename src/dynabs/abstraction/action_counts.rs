@@ -191,14 +191,23 @@ impl<'a> ActionCounts<'a> {
         })
     }
 
-    /// An upper bound on the number of cells in a row.
-    pub(super) fn row_length(&self, grid: &Grid) -> usize {
-        let cells = grid.num_cells() as usize;
-        match (&self.shared, self.shared_windows.first()) {
-            (_, Some(window)) => window.volume().min(cells),
-            (Some(landing), None) => landing.table().volume().min(cells),
-            (None, None) => cells,
-        }
+    /// An upper bound on the number of cells in the rows of all targets: those of the largest window that lie in the grid.
+    pub(super) fn most_entries(&self, targets: &Targets, grid: &Grid) -> u64 {
+        let window = match (&self.shared, self.shared_windows.first()) {
+            (_, Some(window)) => window,
+            (Some(landing), None) => landing.table(),
+            (None, None) => return targets.len() as u64 * u64::from(grid.num_cells()),
+        };
+        let along = |(j, &at): (usize, &i32)| {
+            let last = (at + window.upper[j]).min(grid.axes()[j].cells() as i32 - 1);
+            (last - (at + window.lower[j]).max(0) + 1).max(0) as u64
+        };
+        let mut cell = vec![0; grid.dimension()];
+        let of_target = |target| {
+            targets.cell(target, &mut cell);
+            cell.iter().enumerate().map(along).product::<u64>()
+        };
+        (0..targets.len()).map(of_target).sum()
     }
 }
 

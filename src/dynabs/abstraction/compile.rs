@@ -78,6 +78,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
     clock.lap("memory");
 
     let Base { placements, intervals, enabling } = Base::new(problem, &steering, progress)?;
+    let footprint = footprint.with_rooms(problem, &enabling.targets)?;
     clock.lap("enabled actions");
 
     let states = state_space(problem);

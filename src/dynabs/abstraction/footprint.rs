@@ -1,8 +1,9 @@
 //! How much memory a compilation takes, known before it takes it.
 
 use super::steering::Steering;
+use super::targets::Targets;
 use crate::memory::{Need, TooLarge};
-use crate::partition::{CellId, CellKind};
+use crate::partition::{CellId, CellKind, Grid};
 use crate::problem::{Actions, Problem, TargetPoints};
 use imdp::numeric::to_f64;
 use serde::Serialize;
@@ -46,10 +47,39 @@ impl Footprint {
         Self { needs }
     }
 
+    /// What the cells of a grid take that are there already.
+    pub(super) fn of_cells(grid: &Grid) -> Self {
+        Self { needs: vec![Need::of_cells(grid)] }
+    }
+
     /// And what its rows take, by an estimate.
     pub(super) fn with_rows(mut self, problem: &Problem, steering: &Steering) -> Self {
-        self.needs.push(need_of_rows(problem, entries(problem, steering.targets.len() as u64)));
+        let some = match problem.actions() {
+            Actions::Targets(TargetPoints::Centers) => None,
+            Actions::Targets(_) => Some(steering.targets.len() as u64),
+        };
+        self.needs.push(need_of_rows(problem, entries(problem, some)));
         self
+    }
+
+    /// And what rows take that some targets have again, for actions that need room in between: known before they are made.
+    pub(super) fn with_rooms(mut self, problem: &Problem, targets: &Targets) -> Result<Self, TooLarge> {
+        let again = (targets.len() - targets.num_originals()) as u64;
+        if again > 0 {
+            let bytes = entries(problem, Some(again)).saturating_mul(ENTRY_BYTES);
+            let what = "rows for actions that need room in between";
+            self.take(Need { what, bytes, field: field_of_targets(problem) })?;
+        }
+        Ok(self)
+    }
+
+    /// Adds a part that is about to be needed.
+    ///
+    /// # Errors
+    /// [`TooLarge`] if it does not fit beside what there is by now.
+    pub(super) fn take(&mut self, need: Need) -> Result<(), TooLarge> {
+        self.needs.push(need);
+        need.check()
     }
 
     /// Fails if there is not enough memory for all of it together.
@@ -107,13 +137,13 @@ fn ranges(problem: &Problem, steering: &Steering) -> u64 {
     found.saturating_mul(u64::from(cells)) / u64::from(probed) * 5 / 4
 }
 
-/// How many entries the rows of so many targets have at most: the cells in a box around all samples, at every target.
+/// How many entries the rows of the centers of all cells, or of some targets, have at most: the cells in a box around all
+/// samples, at every target.
 ///
 /// In a box every dimension is by itself: from the centers of all cells together, `Π_j Σ_i |(i + [a_j, b_j]) ∩ [0, n_j)|` with
 /// the offsets `a_j … b_j` that samples have. Of other targets each is taken to be at the best place.
-fn entries(problem: &Problem, targets: u64) -> u64 {
+fn entries(problem: &Problem, some: Option<u64>) -> u64 {
     let samples = &problem.noise().samples;
-    let centers = matches!(problem.actions(), Actions::Targets(TargetPoints::Centers));
     let along = problem.grid().axes().iter().enumerate().map(|(j, axis)| {
         let width = to_f64(axis.width());
         let lowest = samples.iter().map(|sample| sample[j] / width).fold(0.0, f64::min);
@@ -122,11 +152,11 @@ fn entries(problem: &Problem, targets: u64) -> u64 {
         // As many cells as there are on either side say all; a float that is larger ends there.
         let (a, b) = ((lowest + 0.5).floor() as i64, (highest + 0.5).floor() as i64);
         let (a, b) = (a.max(-cells), b.min(cells));
-        if centers {
+        if some.is_none() {
             (0..cells).map(|i| ((i + b).min(cells - 1) - (i + a).max(0) + 1).max(0) as u64).sum()
         } else {
             (b - a + 2).min(cells) as u64
         }
     });
-    along.fold(if centers { 1 } else { targets }, u64::saturating_mul)
+    along.fold(some.unwrap_or(1), u64::saturating_mul)
 }

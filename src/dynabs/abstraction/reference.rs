@@ -29,7 +29,7 @@ pub(super) fn build(
 ) -> Result<Rows, TooLarge> {
     let grid: &Grid = problem.grid();
     let landings = ActionCounts::new(&problem.noise().samples, placements);
-    need_of_rows(problem, targets.len() as u64 * landings.row_length(grid) as u64).check()?;
+    need_of_rows(problem, landings.most_entries(targets, grid)).check()?;
     let intervals = ReferenceIntervals::new(problem.noise().samples.len() as u64, beta_per_interval);
     let inside: Vec<u32> = (0..targets.len())
         .into_par_iter()

@@ -22,5 +22,5 @@ pub use refined::{Controller, ControllerError};
 pub use schedule::Entry;
 pub use simulation::{
     End, Frequency, InputCheck, Noise, ParameterChoice, Plant, RunOutcome, Simulation, Tally, Trajectory,
-    TrajectoryStep, Violation,
+    TrajectoryStep, Violation, samples_per_run,
 };

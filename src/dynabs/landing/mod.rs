@@ -26,6 +26,7 @@ mod layers;
 mod layout;
 mod masses;
 mod model;
+mod model_size;
 mod move_layers;
 #[cfg(test)]
 mod move_tests;

@@ -3,8 +3,10 @@
 mod csv;
 mod gaussian;
 pub mod known;
+mod overlap;
 mod samples;
 
 pub use csv::{CsvError, parse_csv};
 pub use gaussian::Gaussian;
+pub use overlap::overlap;
 pub use samples::{NoiseSample, NoiseSamples};

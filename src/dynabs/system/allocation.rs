@@ -29,14 +29,14 @@ pub struct Demands {
 ///
 /// For a square `B` all this is `B⁻¹`.
 #[derive(Clone, Debug)]
-pub(super) struct Allocation {
+pub(super) struct ControlAllocation {
     /// `M`, `p×n`.
     pub(super) right_inverse: ExactMatrix,
     /// `ū`, `p×1`.
     pub(super) center: ExactMatrix,
 }
 
-impl Allocation {
+impl ControlAllocation {
     /// The allocation of `system` for inputs in `input`; `None` unless `B` has full row rank.
     pub(super) fn new(system: &LinearSystem, input: &Polytope, demands: &Demands) -> Option<Self> {
         let b = system.b();
@@ -67,7 +67,7 @@ impl Allocation {
     }
 }
 
-/// `M` of [`Allocation`] in doubles and before it is improved, for `B` (`n×p`) and half widths of inputs: enough to compare
+/// `M` of [`ControlAllocation`] in doubles and before it is improved, for `B` (`n×p`) and half widths of inputs: enough to compare
 /// designs; `None` unless `B` has full row rank with the inputs that have a range.
 pub(crate) fn rough_right_inverse(b: &DMatrix<f64>, half: &[f64]) -> Option<DMatrix<f64>> {
     let weighted = DMatrix::from_fn(b.ncols(), b.nrows(), |i, j| half[i] * half[i] * b[(j, i)]);
@@ -92,13 +92,18 @@ mod tests {
         Polytope::from_box(&exact(lower), &exact(upper))
     }
 
-    fn allocation(a: &[f64], b: &[f64], (lower, upper): (&[f64], &[f64]), holds: &[&[f64]]) -> Allocation {
+    fn allocation(
+        a: &[f64],
+        b: &[f64],
+        (lower, upper): (&[f64], &[f64]),
+        holds: &[&[f64]],
+    ) -> ControlAllocation {
         let p = lower.len();
         let n = b.len() / p;
         let system = LinearSystem::new(exact(n, n, a), exact(n, p, b), ExactMatrix::zeros(n, 1));
         let holds = holds.iter().map(|x| (x.to_vec(), 1.0)).collect();
         let demands = Demands { cell: vec![0.1; n], holds };
-        let found = Allocation::new(&system, &input(lower, upper), &demands).unwrap();
+        let found = ControlAllocation::new(&system, &input(lower, upper), &demands).unwrap();
         assert_eq!(system.b().times(&found.right_inverse), ExactMatrix::identity(n));
         found
     }
@@ -129,7 +134,7 @@ mod tests {
         let plain = allocation(&a, &b, (&lower, &upper), &[]);
         let holding = allocation(&a, &b, (&lower, &upper), hold);
         let need = exact(2, 1, &[0.0, 0.22]);
-        let largest = |found: &Allocation| {
+        let largest = |found: &ControlAllocation| {
             let shift = found.center.minus(&found.right_inverse.times(&exact(2, 3, &b).times(&found.center)));
             let u = found.right_inverse.times(&need).plus(&shift).to_f64();
             (0..3).map(|i| (u[i] - (lower[i] + upper[i]) / 2.0).abs()).fold(0.0, f64::max)

@@ -1,6 +1,6 @@
 //! The affine feedback law that steers a state to a target, and how exactly it does so.
 
-use super::allocation::Allocation;
+use super::allocation::ControlAllocation;
 use super::{Demands, LinearSystem, TwoLayer};
 use crate::geometry::Polytope;
 use crate::linear_algebra::ExactMatrix;
@@ -33,7 +33,7 @@ pub struct SteeringConstraint {
 /// - Two layers: `u = −K(x − x̄) + u′` with `u′` as above for `A_cl`, `q_cl` and `U′`.
 ///
 /// `B†` is a right inverse of `B`, and `ū` an input, by which what is to be done is shared among the inputs according to the
-/// widths of `U` (or `U′`): see `Allocation`. For more inputs than states the paper's `R⁻¹(d)`
+/// widths of `U` (or `U′`): see `ControlAllocation`. For more inputs than states the paper's `R⁻¹(d)`
 /// asks whether *some* input reaches `d`, while its controller applies one; the constraints here
 /// are those of the law itself, so that `u ∈ U` holds for whatever is applied.
 ///
@@ -58,7 +58,7 @@ pub struct Extent {
 
 impl AffineMap {
     fn steering(system: &LinearSystem, input: &Polytope, demands: &Demands) -> Option<Self> {
-        let Allocation { right_inverse, center } = Allocation::new(system, input, demands)?;
+        let ControlAllocation { right_inverse, center } = ControlAllocation::new(system, input, demands)?;
         let drift = system.q().plus(&system.b().times(&center));
         Some(Self {
             state: right_inverse.times(system.a()).negated(),

@@ -25,7 +25,7 @@ pub fn diff(mut left: Record, mut right: Record, options: &DiffOptions) -> Resul
     match (&left.model, &right.model) {
         (Some(a), Some(b)) => {
             out.sections.push(diff_labels(a, b, options));
-            diff_models(a, b, options, &mut out);
+            diff_models(a, b, options, &mut out)?;
         }
         _ => diff_digests(&left, &right, options, &mut out),
     }

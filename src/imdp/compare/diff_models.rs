@@ -3,7 +3,7 @@
 use super::actions::{Actions, Name};
 use super::paired_choices::PairedChoices;
 use super::{DiffOptions, Differences, Section};
-use crate::model::{IntervalMdp, Row, RowId, StateId};
+use crate::model::{GrowingMemory, IntervalMdp, MemoryError, Row, RowId, StateId};
 use std::collections::HashMap;
 
 /// Where a pair of rows meets first, and how often.
@@ -14,26 +14,34 @@ struct Use<'a> {
     count: u64,
 }
 
+/// What a pair of rows takes, in the list of pairs and where it is looked up, while both grow.
+const PAIR_BYTES: u64 = 2 * (size_of::<((RowId, RowId), Use<'_>)>() + 32) as u64;
+
 /// Compares the choices and every transition of two models.
+///
+/// # Errors
+/// [`MemoryError`] if there are too many pairs of rows.
 pub(super) fn diff_models(
     left: &IntervalMdp,
     right: &IntervalMdp,
     options: &DiffOptions,
     out: &mut Differences,
-) {
+) -> Result<(), MemoryError> {
     if left.num_states() != right.num_states() {
         out.notes.push("choices and intervals were not compared: the numbers of states differ".into());
-        return;
+        return Ok(());
     }
     let (left_actions, right_actions) = (Actions::new(left), Actions::new(right));
     let mut choices = Section::new("choices", options.most);
     let mut intervals = Section::new("intervals", options.most);
     let mut order: Vec<((RowId, RowId), Use<'_>)> = vec![];
     let mut known: HashMap<(RowId, RowId), usize> = HashMap::new();
+    let mut memory = GrowingMemory::new("the pairs of rows to compare");
     for state in StateId::first(left.num_states()) {
         let paired = PairedChoices::new(&left_actions, &right_actions, state);
         choices.compared += 1;
         diff_choices(state, (left, right), &paired, &mut choices);
+        memory.make_room(PAIR_BYTES * order.len() as u64, PAIR_BYTES * paired.pairs.len() as u64)?;
         // The names borrow from the actions, not from `paired`.
         for (choice, (name, a, b)) in paired.pairs.into_iter().enumerate() {
             let at = *known.entry((a, b)).or_insert_with(|| {
@@ -47,6 +55,7 @@ pub(super) fn diff_models(
         diff_rows((left.rows().row(a), right.rows().row(b)), &used, options, &mut intervals);
     }
     out.sections.extend([choices, intervals]);
+    Ok(())
 }
 
 fn diff_choices(

@@ -89,6 +89,9 @@ pub enum CompareError {
         /// Why.
         error: crate::model::ImdpError,
     },
+    /// What is compared does not fit into memory.
+    #[error("{0}; compare smaller models, or files of results or values instead of models")]
+    Memory(#[from] crate::model::MemoryError),
     /// There is no model to make a reference of.
     #[error("{path}: found no model; a reference is made of a run directory or a model file")]
     NoModel {

@@ -4,7 +4,7 @@ use super::InputAbstraction;
 use crate::landing::{FlatModelError, LandingModel};
 use crate::partition::CellId;
 use crate::task::Aim;
-use imdp::model::{IntervalMdp, StateId};
+use imdp::model::{IntervalMdp, StateId, require_memory};
 use imdp::property::{PathFormula, Property, Resolution, StateFormula};
 
 /// How choices lead to cells in the model that files have.
@@ -48,7 +48,10 @@ impl InputAbstraction {
     ) -> Result<InputModel, FlatModelError> {
         let (question, initial) = (self.exported(), self.initial(initial));
         let LandingModel { model, of_cell, acting, micro_steps } = match encoding {
-            InputEncoding::Landing => question.model(&initial)?,
+            InputEncoding::Landing => {
+                require_memory("the model of the lattice", question.model_bytes())?;
+                question.model(&initial)?
+            }
             // Where an interval says less than a band does, intervals of cells may still say more.
             InputEncoding::Flat => self.question().flat_model(&initial)?,
         };

@@ -14,26 +14,27 @@ mod sampled;
 mod sampled_tests;
 mod tables;
 
-use crate::Warning;
+use super::Footprint;
 use crate::guarantee::Evidence;
 use crate::landing::{Axis, Images, Landing, LandingError, Layout, Question, Stencil, Taps, occurring};
+use crate::memory::{Need, TooLarge};
 use crate::noise::known::Distribution;
 use crate::partition::{CellId, CellKind, GridError};
 use crate::problem::{InputNoise, InputProblem};
 use crate::statistics::BudgetError;
 use crate::system::{ImageError, ImageMap, Lattice};
 use crate::task::CellTask;
+use crate::{Diagnostic, Warning};
 pub use costs::CostError;
 pub use export::{InputEncoding, InputModel};
-use imdp::model::{MemoryError, require_memory};
 use imdp::numeric::Rational;
 use reach::Reach;
 use sampled::Proved;
 use std::time::{Duration, Instant};
 use tables::Tables;
 
-/// What is stored of a cell: values on both sides, the best of a step, inputs chosen.
-const BYTES_OF_CELL: u64 = 64;
+/// What is stored of a cell with a memory: values on both sides, the best of a step, inputs chosen.
+const BYTES_OF_PAIR: u64 = 64;
 
 /// A control problem whose actions are inputs, as a game on a lattice.
 #[derive(Clone, Debug)]
@@ -53,6 +54,8 @@ pub struct InputAbstraction {
     pub resolution: Vec<u32>,
     /// The number of cells in which something could be decided but no input is enabled.
     pub blocked: usize,
+    /// How much memory was expected to be needed.
+    pub footprint: Footprint,
     /// How long each phase took.
     pub phases: Vec<(&'static str, Duration)>,
 }
@@ -67,8 +70,8 @@ pub enum InputsError {
     #[error("{0}\n  Use fewer cells or inputs, or a coarser /partition/resolution.")]
     Landing(#[from] LandingError),
     /// The machine is too small.
-    #[error("{0}\n  Use fewer cells or inputs, or a coarser /partition/resolution.")]
-    Memory(#[from] MemoryError),
+    #[error("{}", Diagnostic::from(.0))]
+    Memory(#[from] TooLarge),
     /// No input is enabled in any cell.
     #[error(
         "no input is enabled in any cell: no input leaves room for the feedback\n  Use smaller cells, a smaller gain or a larger U."
@@ -116,6 +119,8 @@ impl InputAbstraction {
         if inputs.is_empty() {
             return Err(InputsError::NothingEnabled);
         }
+        let mut footprint = Footprint::of_cells(grid);
+        footprint.take(need_of_memories(problem))?;
         let images = ImageMap::new(problem.mode(), problem.feedback(), grid, lattice, inputs);
         let tables = Tables::new(grid, &images, inputs.len())?;
         let tabulated = start.elapsed();
@@ -125,14 +130,13 @@ impl InputAbstraction {
             (0..grid.num_cells()).filter(|&cell| !task.open(cell as usize).is_empty()).collect();
         let occurs = occurring(&tables, &ordinary, grid.dimension());
         let extent: Vec<_> = (0..grid.dimension()).map(|j| tables.extent(j, &occurs[j])).collect();
-        let Landed { landing, relaxed, evidence, warnings } = landed(problem, &resolution, &extent)?;
+        let Landed { landing, relaxed, evidence, warnings } =
+            landed(problem, &resolution, &extent, &mut footprint)?;
         let pairs = ordinary.len() as u64 * inputs.len() as u64;
         let layout = Layout::new(&tables, &occurs, landing.axes(), pairs)?;
-        require_memory(
-            "the images of all cells and inputs",
-            Images::bytes(&layout, ordinary.len(), inputs.len())
-                + BYTES_OF_CELL * u64::from(grid.num_cells()),
-        )?;
+        let bytes = Images::bytes(&layout, ordinary.len(), inputs.len());
+        let what = "the images of all cells under all inputs";
+        footprint.take(Need { what, bytes, field: "/partition/cells" })?;
         let images = Images::new(&tables, &ordinary, layout);
         if let Some(which) = leaving::all_leave(problem, &landing, &images, (&extent, &resolution)) {
             return Err(InputsError::LeavesPartition { which });
@@ -150,6 +154,7 @@ impl InputAbstraction {
             images,
             open,
             resolution,
+            footprint,
             phases,
         })
     }
@@ -211,7 +216,12 @@ struct Landed {
     warnings: Vec<Warning>,
 }
 
-fn landed(problem: &InputProblem, resolution: &[u32], extent: &[(i64, i64)]) -> Result<Landed, InputsError> {
+fn landed(
+    problem: &InputProblem,
+    resolution: &[u32],
+    extent: &[(i64, i64)],
+    footprint: &mut Footprint,
+) -> Result<Landed, InputsError> {
     let axes = problem.grid().axes();
     let pitch: Vec<Rational> = axes
         .iter()
@@ -252,7 +262,7 @@ fn landed(problem: &InputProblem, resolution: &[u32], extent: &[(i64, i64)]) -> 
         InputNoise::Sampled(samples) => {
             let reach = |j| Reach::new(extent[j], sub_cells(j), problem.periodic()[j]);
             let reach: Vec<Reach> = all.clone().map(reach).collect();
-            let Proved { noise, evidence, warnings } = sampled::prove(samples, &pitch, &reach)?;
+            let Proved { noise, evidence, warnings } = sampled::prove(samples, &pitch, &reach, footprint)?;
             let relaxed: Vec<Stencil> = noise.iter().map(Stencil::relaxed).collect();
             let is_looser = noise.iter().any(|noise| noise.band.is_some());
             Ok(Landed {
@@ -263,6 +273,14 @@ fn landed(problem: &InputProblem, resolution: &[u32], extent: &[(i64, i64)]) -> 
             })
         }
     }
+}
+
+/// What the memories of the task take in all cells.
+fn need_of_memories(problem: &InputProblem) -> Need {
+    let (cells, memories) = (problem.grid().num_cells(), problem.cell_task().memories());
+    let bytes = u64::from(cells).saturating_mul(u64::from(memories)).saturating_mul(BYTES_OF_PAIR);
+    let field = if memories > 1 { "/task" } else { "/partition/cells" };
+    Need { what: "what the task remembers in all cells", bytes, field }
 }
 
 /// From which to which lattice interval noise matters: others lead out of the partition from every image.

@@ -21,12 +21,14 @@
 use super::InputsError;
 use super::reach::Reach;
 use crate::Warning;
+use crate::abstraction::Footprint;
 use crate::abstraction::cell_counts::CellCounts;
 use crate::abstraction::pac::{offset_weight, total_offset_weight};
 use crate::abstraction::placement::Placement;
 use crate::abstraction::windows::{Stack, Windows};
 use crate::guarantee::SampleEvidence;
 use crate::landing::{Band, Stencil, Tap};
+use crate::memory::Need;
 use crate::noise::NoiseSamples;
 use crate::partition::Grid;
 use crate::problem::{Components, StepSamples};
@@ -44,6 +46,10 @@ const DIGITS: usize = 10;
 /// More may not be unseen.
 const MAX_UNSEEN: f64 = 0.5;
 
+/// What a box takes, in all tables, and for every coordinate.
+const BYTES_OF_BOX: u64 = 200;
+const BYTES_OF_SIDE: u64 = 12;
+
 /// What was found.
 pub(super) struct Proved {
     /// The noise, one component after the other if they are independent.
@@ -57,6 +63,7 @@ pub(super) fn prove(
     samples: &StepSamples,
     pitch: &[Rational],
     reach: &[Reach],
+    footprint: &mut Footprint,
 ) -> Result<Proved, InputsError> {
     let n = pitch.len();
     let whole = &samples.beta / Rational::from_integer(samples.sweep.into());
@@ -67,7 +74,8 @@ pub(super) fn prove(
         Components::Joint => {
             let (cells, windows) = ("cells".to_owned(), "windows".to_owned());
             let family = Family { cells, windows, share: Rational::one() };
-            boxes(all, pitch, reach, &family, samples.discard, &mut budget, &mut found)?;
+            let mut spent = (&mut budget, &mut *footprint);
+            boxes(all, pitch, reach, &family, samples.discard, &mut spent, &mut found)?;
         }
         Components::Intervals => {
             for j in 0..n {
@@ -78,7 +86,8 @@ pub(super) fn prove(
                 };
                 let (own, before) = (component(all, j), found.noise.len());
                 let one = (&pitch[j..=j], &reach[j..=j]);
-                boxes(&own, one.0, one.1, &family, samples.discard, &mut budget, &mut found)?;
+                let mut spent = (&mut budget, &mut *footprint);
+                boxes(&own, one.0, one.1, &family, samples.discard, &mut spent, &mut found)?;
                 found.noise[before..].iter_mut().for_each(|noise| embed(noise, j, n));
             }
         }
@@ -136,7 +145,7 @@ fn boxes(
     reach: &[Reach],
     family: &Family,
     discard: u64,
-    budget: &mut ConfidenceBudget,
+    (budget, footprint): &mut (&mut ConfidenceBudget, &mut Footprint),
     found: &mut Proved,
 ) -> Result<(), InputsError> {
     let n = pitch.len();
@@ -162,6 +171,11 @@ fn boxes(
     let Some(listed) = window.cells(&placement).into_iter().next() else {
         return Err(InputsError::TooFewSamples { samples: number, unseen: 1.0 });
     };
+    let mut table = listed.clone();
+    samples.measured().for_each(|sample| table.include(&placement.spread(sample)));
+    let sides = table.lower.iter().zip(&table.upper).map(|(low, high)| (high - low + 1) as u64);
+    let bytes = sides.fold(BYTES_OF_BOX + BYTES_OF_SIDE * n as u64, u64::saturating_mul);
+    footprint.take(Need { what: "the boxes of the noise", bytes, field: "/partition/cells" })?;
     let counts = CellCounts::new(samples, &placement, Some(&listed), None);
     let mut taps = vec![];
     listed.for_each(|place| {

@@ -1,5 +1,6 @@
 //! How often what samples prove is wrong, and that it would be noticed if it were wrong too often.
 
+use super::super::Footprint;
 use super::reach::Reach;
 use super::sampled::prove;
 use crate::linear_algebra::ExactMatrix;
@@ -45,7 +46,7 @@ fn mass(j: usize, k: i64) -> f64 {
 /// Whether everything that was proved is true.
 fn is_true(components: Components, seed: u64) -> bool {
     let reach = [Reach::new((-3, 13), 12, false), Reach::new((-3, 13), 12, false)];
-    let proved = prove(&samples(components, seed), &pitch(), &reach).unwrap();
+    let proved = prove(&samples(components, seed), &pitch(), &reach, &mut Footprint::default()).unwrap();
     proved.noise.iter().enumerate().all(|(j, noise)| {
         let end = |j: usize, k: i64| k == reach[j].lowest || k == reach[j].highest;
         let of_tap = |first: &[i64]| match components {

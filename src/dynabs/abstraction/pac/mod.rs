@@ -142,8 +142,7 @@ impl<'a> PacRows<'a> {
         let levels = &prepared.levels;
         let inside_only = levels.lower_bounds() == LowerBounds::InsideWindows;
         let landings = ActionCounts::in_windows(samples, placements, prepared.windows.clone(), inside_only);
-        let entries = targets.len() as u64 * landings.row_length(grid) as u64;
-        need_of_rows(problem, entries).check()?;
+        need_of_rows(problem, landings.most_entries(targets, grid)).check()?;
 
         let counts = |origin: &mut Vec<i32>, target| {
             let (landing, _) = landings.of(targets, target, grid, origin);

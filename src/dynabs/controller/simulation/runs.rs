@@ -132,6 +132,13 @@ impl<'a> Simulation<'a> {
         self.observe(start, seed, run, &mut self.scratch(), see)
     }
 
+    /// The run from `start` with the noise of every group of steps written by `draw`.
+    pub(super) fn with_noise(&self, start: &[f64], run: u64, draw: impl FnMut(&mut [f64])) -> RunOutcome {
+        let mut draw = draw;
+        let draw = |_: &mut ChaCha12Rng, noise: &mut [f64]| draw(noise);
+        self.observe_with(start, (0, run), &mut self.scratch(), draw, |_| {})
+    }
+
     fn scratch(&self) -> Scratch {
         let (n, d) = (self.controller.state_dimension(), self.controller.group_steps());
         Scratch {
@@ -150,6 +157,17 @@ impl<'a> Simulation<'a> {
         seed: u64,
         run: u64,
         scratch: &mut Scratch,
+        see: impl FnMut(Moment<'_>),
+    ) -> RunOutcome {
+        self.observe_with(start, (seed, run), scratch, |rng, noise| self.motion.draw(rng, noise), see)
+    }
+
+    fn observe_with(
+        &self,
+        start: &[f64],
+        (seed, run): (u64, u64),
+        scratch: &mut Scratch,
+        mut draw: impl FnMut(&mut ChaCha12Rng, &mut [f64]),
         mut see: impl FnMut(Moment<'_>),
     ) -> RunOutcome {
         let (n, p) = (self.controller.state_dimension(), self.controller.step_inputs());
@@ -172,7 +190,7 @@ impl<'a> Simulation<'a> {
                 outcome.satisfied = outcome.satisfied_at_instants && !outcome.unsafe_between;
                 return outcome;
             }
-            self.motion.draw(&mut rng, noise);
+            draw(&mut rng, noise);
             grouped.copy_from_slice(x);
             for i in 0..d {
                 let u = &u[i * p..(i + 1) * p];
