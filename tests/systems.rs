@@ -1,5 +1,6 @@
 //! Dynamics in model files: what is understood, and what is refused, where and why.
 
+use dynabs::abstraction::inputs::InputAbstraction;
 use dynabs::model_file::{Document, StatedProblem};
 use dynabs::system::{Discretisation, ImageMap, ImageScratch, Lattice, Mode};
 use std::path::Path;
@@ -112,6 +113,7 @@ fn feedback_leaves_its_share_of_the_inputs() {
 #[test]
 fn mistakes_have_a_place_and_a_remedy() {
     let mut others = Vec::new();
+    let long = format!("/dynamics/next/0=\"p{}\"", "+p".repeat(40_000));
     let deep = format!("/dynamics/next/0=\"{}p{}\"", "(".repeat(300), ")".repeat(300));
     for (set, expected) in [
         (&["/dynamics/next/1=\"v + f\""][..], "/dynamics/next/1 (column 5): found the unknown name \"f\""),
@@ -143,6 +145,7 @@ fn mistakes_have_a_place_and_a_remedy() {
         (&["/feedback={\"narrow\":2}"], "/feedback/narrow"),
         (&["/actions=\"targets\""], "actions\": \"inputs\""),
         (&[&deep], "nested more than"),
+        (&[&long], "at most 65536"),
     ] {
         let error = stated(set).err().unwrap_or_else(|| panic!("{set:?} is no mistake"));
         if !error.contains(expected) {
@@ -150,6 +153,27 @@ fn mistakes_have_a_place_and_a_remedy() {
         }
     }
     assert!(others.is_empty(), "{others:#?}");
+}
+
+/// What is only undefined somewhere in the partition is found where images are computed: place, column, remedy.
+#[test]
+fn what_is_undefined_somewhere_is_explained() {
+    for (text, expected) in [
+        ("p + 0.1/v", ["/dynamics/next/0 (column 8)", "a division by [", "a divisor that is never 0"]),
+        ("sqrt(p + 1)", ["/dynamics/next/0 (column 1)", "sqrt of [", "an argument that is never negative"]),
+        ("p + ln(1 + 0.2*a + v)", ["/dynamics/next/0 (column 5)", "ln of [", "a positive argument"]),
+        ("tan(p)", ["/dynamics/next/0 (column 1)", "tan of [", "between two poles"]),
+        ("asin(p)", ["/dynamics/next/0 (column 1)", "asin or acos of [", "in [-1, 1]"]),
+        ("v^-2", ["/dynamics/next/0", "a negative power of [", "never 0"]),
+        ("exp(exp(exp(9 + p)))", ["/dynamics/next/0", "without bound", "range of doubles"]),
+    ] {
+        let problem = stated(&[&format!("/dynamics/next/0=\"{text}\"")]).unwrap();
+        let error = InputAbstraction::new(&problem).unwrap_err().to_string();
+        for part in expected {
+            assert!(error.contains(part), "{text}: {error}");
+        }
+        assert!(error.contains("cell") && error.contains("with max, min or clip"), "{error}");
+    }
 }
 
 #[test]

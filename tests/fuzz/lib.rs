@@ -2,7 +2,8 @@
 //! can be written, read again and solved with a certificate that the checker accepts.
 
 use dynabs::abstraction::compile;
-use dynabs::imdp::certificate::{self, Certificate};
+use dynabs::imdp::certificate::{self, Certificate, Statement};
+use dynabs::imdp::evaluation::check_derivation;
 use dynabs::imdp::formats::umb::Compression;
 use dynabs::imdp::formats::{Format, ModelWriter, native};
 use dynabs::imdp::model::IntervalMdp;
@@ -82,6 +83,10 @@ pub fn certificate(data: &[u8]) {
     }
     let digest: String = sha256(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
     bytes.extend_from_slice(format!("end {digest}\n").as_bytes());
+    if let Ok(Statement::Expression(derivation)) = certificate::read_statement(&bytes) {
+        // Whatever it says about this model, it is judged.
+        let _ = check_derivation(&derivation, &small_model(), &derivation.files);
+    }
     let Ok(certificate) = certificate::read(&bytes) else { return };
     assert_eq!(again(&certificate), certificate, "a certificate is read as it was written");
     let model = small_model();
