@@ -71,7 +71,9 @@ impl From<CrossCheckError> for CliError {
 pub fn run(arguments: &ReportArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
     let start = Instant::now();
-    let (page, pictures) = match Controlled::open(&arguments.directory, &bars)? {
+    let run = Controlled::open(&arguments.directory, &bars)?;
+    run.require_text("the page", "Use fewer /partition/cells.")?;
+    let (page, pictures) = match run {
         Controlled::Inputs(solved, controller) => of_inputs(arguments, &solved, &controller, start, &bars)?,
         Controlled::Targets(refined) => {
             let Refined { run, answer, controller } = &*refined;
