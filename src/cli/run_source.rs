@@ -41,13 +41,7 @@ pub(super) struct Refined {
 pub(super) fn refine(directory: &Path, bars: &Arc<Bars>) -> Result<Refined, CliError> {
     let run = Run::open(directory, &**bars)?;
     bars.catch_interrupts();
-    let progress =
-        |iteration, gap: f64| bars.note(|| format!("iteration {iteration}, bounds {gap:.1e} apart"));
-    let options = SolverOptions {
-        interrupt: Some(bars.interrupt()),
-        progress: Some(&progress),
-        ..SolverOptions::default()
-    };
+    let options = SolverOptions { progress: &**bars, ..SolverOptions::default() };
     let answer = run.solve(&options);
     bars.finish();
     let answer = answer.map_err(|error| CliError::Failure(error.to_string()))?;

@@ -26,11 +26,13 @@ pub struct CheckArguments {
     threads: Option<u16>,
 }
 
+/// What `dynabs-check` can do.
 #[derive(Clone, Debug, Subcommand)]
-enum Command {
+pub(super) enum Command {
     /// Solve properties of a compiled model or of a model in a file.
     Solve(SolveArguments),
     /// Write the controller of a compiled model as JSON, CSV or C.
+    #[command(visible_alias = "export")]
     Controller(ControllerArguments),
     /// Simulate the closed loop of a compiled model and compare with what is promised.
     Simulate(SimulateArguments),
@@ -61,7 +63,15 @@ the bounds straddle the threshold, or an engine gave no answer), 4 I/O, memory o
 /// [`CliError`], which knows its exit code.
 pub fn run(arguments: &CheckArguments) -> Result<ExitCode, CliError> {
     use_threads(arguments.threads)?;
-    match &arguments.command {
+    run_command(&arguments.command)
+}
+
+/// Runs a subcommand.
+///
+/// # Errors
+/// [`CliError`], which knows its exit code.
+pub(super) fn run_command(command: &Command) -> Result<ExitCode, CliError> {
+    match command {
         Command::Solve(arguments) => solve(arguments),
         Command::Controller(arguments) => controller(arguments),
         Command::Simulate(arguments) => simulate(arguments),

@@ -6,7 +6,7 @@ use crate::choices::format_names;
 use crate::results::{PropertyResult, exit_code, table};
 use crate::summary::{memory, memory_json, summary};
 use crate::{Bars, CliError, EncodingName, print, use_threads, warn};
-use clap::Parser;
+use clap::{Args, Parser};
 use dynabs::abstraction::{Abstraction, Footprint, compile};
 use dynabs::controller::Controller;
 use dynabs::explain::explain;
@@ -27,7 +27,19 @@ use std::time::{Duration, Instant};
 
 /// Compile a noisy linear control system into an interval MDP with guaranteed probabilities, for PRISM.
 #[derive(Clone, Debug, Parser)]
-#[command(name = "dynabs-compile", version, after_help = AFTER_HELP)]
+#[command(name = "dynabs-compile", version)]
+pub struct CompileTool {
+    #[command(flatten)]
+    arguments: CompileArguments,
+
+    /// Use this many threads; the output does not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
+/// What to compile, and what to make of it.
+#[derive(Clone, Debug, Args)]
+#[command(after_help = AFTER_HELP)]
 pub struct CompileArguments {
     /// The model file (JSON).
     #[arg(required_unless_present_any = ["init", "schema"])]
@@ -84,10 +96,6 @@ pub struct CompileArguments {
     #[arg(short, long)]
     quiet: bool,
 
-    /// Use this many threads; the output does not depend on it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
-
     /// Write a starter model to FILE.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["model", "output", "schema"])]
     init: Option<PathBuf>,
@@ -116,19 +124,27 @@ Examples:
 ///
 /// # Errors
 /// [`CliError`], which knows its exit code.
-pub fn run(arguments: &CompileArguments) -> Result<ExitCode, CliError> {
+pub fn run(tool: &CompileTool) -> Result<ExitCode, CliError> {
+    use_threads(tool.threads)?;
+    compile_or_init(&tool.arguments)
+}
+
+/// Compiles a model, or writes one to start from.
+///
+/// # Errors
+/// [`CliError`], which knows its exit code.
+pub(super) fn compile_or_init(arguments: &CompileArguments) -> Result<ExitCode, CliError> {
     if arguments.schema {
         print(&json_schema())?;
     } else if let Some(file) = &arguments.init {
         write_starter(file, arguments.quiet)?;
     } else if let Some(model) = &arguments.model {
-        use_threads(arguments.threads)?;
         return compile_model(arguments, model);
     }
     Ok(ExitCode::SUCCESS)
 }
 
-fn write_starter(file: &Path, quiet: bool) -> Result<(), CliError> {
+pub(super) fn write_starter(file: &Path, quiet: bool) -> Result<(), CliError> {
     let shown = file.display();
     let mut files = Outputs::default();
     let written = files.write(file, |out| out.write_all(starter_model().as_bytes()));

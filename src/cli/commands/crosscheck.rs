@@ -125,11 +125,8 @@ pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     let memory_mib = arguments
         .memory
         .unwrap_or_else(|| available_memory().map_or(4096, |(bytes, _)| (bytes >> 20) / 4 * 3));
-    let limits = RunLimits {
-        timeout: Duration::from_secs_f64(arguments.timeout),
-        memory_mib,
-        interrupt: Some(bars.interrupt()),
-    };
+    let limits =
+        RunLimits { timeout: Duration::from_secs_f64(arguments.timeout), memory_mib, progress: &*bars };
     let engines: Vec<&dyn Engine> = found.iter().map(|engine| &**engine).collect();
     let findings = LimitArguments::of_epsilon(arguments.epsilon).with_options(&bars, |solver| {
         cross_check(&subject, &inquiries, &engines, &CrossCheckOptions { solver: *solver, limits })

@@ -316,14 +316,11 @@ impl LimitArguments {
 
     /// Computes something within these limits, with the current gap on display.
     pub(super) fn with_options<T>(&self, bars: &Bars, compute: impl FnOnce(&SolverOptions<'_>) -> T) -> T {
-        let progress =
-            |iteration, gap: f64| bars.note(|| format!("iteration {iteration}, bounds {gap:.1e} apart"));
         let result = compute(&SolverOptions {
             epsilon: self.epsilon,
             max_iterations: self.max_iterations.unwrap_or(u64::MAX),
             time_limit: self.time_limit.map(Duration::from_secs_f64),
-            interrupt: Some(bars.interrupt()),
-            progress: Some(&progress),
+            progress: bars,
             ..SolverOptions::default()
         });
         bars.finish();

@@ -5,9 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// More memory would be needed than there is.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "{what}: about {needed_mib} MiB of memory would be needed, {available_mib} MiB are available ({limit})"
-)]
+#[error("{what}: found {available_mib} MiB of memory available ({limit}); expected about {needed_mib} MiB")]
 pub struct MemoryError {
     /// What would be allocated.
     pub what: String,
