@@ -45,7 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let property: Property = property.parse()?;
 
     let format = Format::of_path(&path).ok_or("the extension tells no format")?;
-    let imported = format.import(&path, &mut |_| {})?;
+    let imported = format.import(&path, &())?;
     let answer = Answer::new(&imported.model, &property, &SolverOptions::default())?;
     println!("{property}\n  in [{}, {}] at the initial state", answer.lower, answer.upper);
     Ok(())

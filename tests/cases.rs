@@ -93,7 +93,7 @@ fn files_of_other_formats_are_solved() {
             let path = directory.join("case").with_extension(format.extension());
             let writer = ModelWriter::new(model, format, Compression::Gzip).unwrap();
             writer.write(format.extension(), &mut std::fs::File::create(&path).unwrap(), &()).unwrap();
-            let again = format.import(&path, &mut |_| {}).unwrap().model;
+            let again = format.import(&path, &()).unwrap().model;
             assert_eq!(again, *model, "{} as {format}", case.name);
             check(case, &again, &format.to_string(), 0.0);
         }

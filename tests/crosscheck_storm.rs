@@ -44,7 +44,7 @@ fn ask(model: &IntervalMdp, properties: &[Property]) -> Vec<Finding> {
     let engines: Vec<&dyn Engine> = engines.iter().map(|engine| &**engine).collect();
     let options = CrossCheckOptions {
         solver: SolverOptions { epsilon: 1e-10, ..SolverOptions::default() },
-        limits: RunLimits { timeout: Duration::from_secs(300), memory_mib: 4096, interrupt: None },
+        limits: RunLimits { timeout: Duration::from_secs(300), memory_mib: 4096, progress: &() },
     };
     let inquiries: Vec<_> = properties.iter().cloned().map(Inquiry::Probability).collect();
     cross_check(&subject, &inquiries, &engines, &options).unwrap()

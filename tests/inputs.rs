@@ -3,10 +3,10 @@
 use dynabs::abstraction::inputs::InputAbstraction;
 use dynabs::controller::{Controller, Decision, ParameterChoice, RunMemory, Simulation};
 use dynabs::geometry::Polytope;
-use dynabs::guarantee::Safety;
 use dynabs::model_file::{Document, StatedProblem};
 use dynabs::problem::InputProblem;
 use dynabs::system::{Demands, FeedbackLaw, ImageMap, ImageScratch, Lattice};
+use dynabs::task::Safety;
 use imdp::numeric::to_f64;
 use imdp::property::Resolution;
 use imdp::solver::{Answer, SolverOptions};

@@ -27,6 +27,7 @@ mod intervals;
 mod memory;
 mod native;
 mod noise_masses;
+mod one_tool;
 mod open;
 mod output;
 mod overflow;

@@ -81,7 +81,7 @@ fn other_properties_are_not_kept() {
 fn an_interrupted_computation_prunes_nothing() {
     let whole = abstraction("room_temperature", &[]);
     let interrupt = AtomicBool::new(true);
-    let options = SolverOptions { interrupt: Some(&interrupt), ..SolverOptions::default() };
+    let options = SolverOptions { progress: &interrupt, ..SolverOptions::default() };
     let refused = Pruned::new(&whole.model, &whole.property, &options);
     assert!(matches!(refused, Err(PruneError::Unfinished { .. })));
 }

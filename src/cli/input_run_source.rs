@@ -24,11 +24,8 @@ impl SolvedInputs {
         bars: &Bars,
     ) -> Result<Self, CliError> {
         let run = InputRun::open(directory)?;
-        let progress =
-            |step, change: f64| bars.note(|| format!("step {step}, values change by {change:.1e}"));
         let options = given.copied().unwrap_or_default();
-        let options =
-            SolverOptions { interrupt: Some(bars.interrupt()), progress: Some(&progress), ..options };
+        let options = SolverOptions { progress: bars, ..options };
         let solution = match given {
             Some(_) => run.solve(&options),
             None => run.solution(&options),

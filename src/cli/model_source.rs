@@ -6,7 +6,7 @@ use dynabs::run::{Manifest, NATIVE_MODEL, RunFiles};
 use imdp::certificate::FileDigest;
 use imdp::files::{Snapshot, steady};
 use imdp::formats::sha256_of_file;
-use imdp::formats::{Format, Warning};
+use imdp::formats::{Format, Held, Warning};
 use imdp::model::IntervalMdp;
 use imdp::progress::Progress;
 use imdp::property::{Property, PropertyError};
@@ -97,16 +97,11 @@ pub(super) fn load(path: &Path, explicit: bool, bars: &Bars) -> Result<LoadedMod
         )
     };
     let shown = path.display();
-    if path.is_dir() {
-        return steady(&[path.to_owned()], || load_directory(path, explicit, bars));
-    }
-    let format = Format::of_path(path);
-    if !path.exists() && format != Some(Format::Prism) {
-        return Err(CliError::Input(format!("{shown}: found nothing; expected {}", expected())));
-    }
-    match format {
-        Some(format) => load_file(path, format, bars),
-        None => Err(CliError::Input(format!(
+    match Held::at(path) {
+        Held::Directory => steady(&[path.to_owned()], || load_directory(path, explicit, bars)),
+        Held::Model(format, path) => load_file(&path, format, bars),
+        Held::Nothing => Err(CliError::Input(format!("{shown}: found nothing; expected {}", expected()))),
+        Held::Json | Held::Other => Err(CliError::Input(format!(
             "{shown}: found a file of another kind; expected {}{}",
             expected(),
             export_command(path)
@@ -195,11 +190,7 @@ fn raised_bounds(manifest: &Manifest, model: &IntervalMdp) -> String {
 
 fn load_file(path: &Path, format: Format, bars: &Bars) -> Result<LoadedModel, CliError> {
     bars.start("reading", format.work(path));
-    let mut before = 0;
-    let imported = format.import(path, &mut |read| {
-        bars.advance(read.saturating_sub(before));
-        before = read;
-    });
+    let imported = format.import(path, bars);
     bars.finish();
     let imported = imported.map_err(|error| match error.is_io() {
         true => CliError::Failure(error.to_string()),

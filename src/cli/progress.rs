@@ -50,26 +50,9 @@ impl Bars {
         signals::listen(self);
     }
 
-    /// The flag that Ctrl-C sets.
-    pub fn interrupt(&self) -> &AtomicBool {
-        &self.interrupt
-    }
-
-    /// Shows what an iteration without a known end is doing; `text` is asked for only when it is shown.
-    pub fn note(&self, text: impl FnOnce() -> String) {
-        self.with(|current| {
-            let current = current.get_or_insert_with(|| {
-                let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
-                bar.set_style(ProgressStyle::default_spinner());
-                Current { bar, since: Instant::now(), noted: Duration::ZERO, shown: false }
-            });
-            current.show_after_a_while(self.quiet);
-            if current.shown && current.since.elapsed() > current.noted + NOTE_INTERVAL {
-                current.noted = current.since.elapsed();
-                current.bar.set_message(text());
-                current.bar.tick();
-            }
-        });
+    /// Asks the work to end; returns whether that was asked before.
+    pub(super) fn interrupt(&self) -> bool {
+        self.interrupt.swap(true, Ordering::Relaxed)
     }
 
     fn with(&self, action: impl FnOnce(&mut Option<Current>)) {
@@ -93,6 +76,22 @@ impl Progress for Bars {
             let Some(current) = current else { return };
             current.bar.inc(units);
             current.show_after_a_while(self.quiet);
+        });
+    }
+
+    fn iterate(&self, iterations: u64, distance: f64) {
+        self.with(|current| {
+            let current = current.get_or_insert_with(|| {
+                let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+                bar.set_style(ProgressStyle::default_spinner());
+                Current { bar, since: Instant::now(), noted: Duration::ZERO, shown: false }
+            });
+            current.show_after_a_while(self.quiet);
+            if current.shown && current.since.elapsed() > current.noted + NOTE_INTERVAL {
+                current.noted = current.since.elapsed();
+                current.bar.set_message(format!("iteration {iterations}, {distance:.1e} apart"));
+                current.bar.tick();
+            }
         });
     }
 

@@ -223,7 +223,7 @@ mod tests {
         let path = scratch.path().join("m.tra");
         std::fs::write(&path, "2 2 3\n0 0 0 [0.4,0.6]\n0 0 1 [0.4,0.6]\n1 0 1 1\n").unwrap();
         std::fs::write(path.with_extension("lab"), "0=\"init\" 1=\"goal\"\n0: 0\n1: 1\n").unwrap();
-        let model = Format::Prism.import(&path, &mut |_| {}).unwrap().model;
+        let model = Format::Prism.import(&path, &()).unwrap().model;
         let property: Property = "(Pmaxmin=? [ F<=1 \"goal\" ])>=0.4".parse().unwrap();
         let result = |exact_work| {
             let options = SolverOptions { exact_work, ..SolverOptions::default() };

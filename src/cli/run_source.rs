@@ -3,9 +3,10 @@
 use super::input_run_source::SolvedInputs;
 use super::{Bars, CliError};
 use dynabs::controller::{Controller, ControllerError};
-use dynabs::partition::Grid;
+use dynabs::partition::{CellId, Grid};
 use dynabs::run::{InputRun, OpenError, Run};
 use imdp::files::is_fault_of_input;
+use imdp::model::require_memory;
 use imdp::progress::Progress;
 use imdp::solver::{Answer, SolverOptions, Status};
 use std::path::Path;
@@ -40,13 +41,7 @@ pub(super) struct Refined {
 pub(super) fn refine(directory: &Path, bars: &Arc<Bars>) -> Result<Refined, CliError> {
     let run = Run::open(directory, &**bars)?;
     bars.catch_interrupts();
-    let progress =
-        |iteration, gap: f64| bars.note(|| format!("iteration {iteration}, bounds {gap:.1e} apart"));
-    let options = SolverOptions {
-        interrupt: Some(bars.interrupt()),
-        progress: Some(&progress),
-        ..SolverOptions::default()
-    };
+    let options = SolverOptions { progress: &**bars, ..SolverOptions::default() };
     let answer = run.solve(&options);
     bars.finish();
     let answer = answer.map_err(|error| CliError::Failure(error.to_string()))?;
@@ -56,6 +51,12 @@ pub(super) fn refine(directory: &Path, bars: &Arc<Bars>) -> Result<Refined, CliE
     let controller = Controller::new(&run.problem, &run.abstraction, &answer)?;
     Ok(Refined { run, answer, controller })
 }
+
+/// What a cell takes in a text: its bound, its kind, its place in tables and plots.
+const BYTES_OF_CELL: u64 = 240;
+
+/// What a decision takes in a text: two numbers, as values of JSON or digits.
+const BYTES_OF_ENTRY: u64 = 180;
 
 /// A run with its controller, whatever its actions are.
 pub(super) enum Controlled {
@@ -86,6 +87,22 @@ impl Controlled {
             Self::Targets(refined) => &refined.controller,
             Self::Inputs(_, controller) => controller,
         }
+    }
+
+    /// Fails if the controller as text, whole and in pieces, may not fit into memory.
+    ///
+    /// # Errors
+    /// [`CliError::Input`] with the estimate and `remedy`.
+    pub(super) fn require_text(&self, what: &str, remedy: &str) -> Result<(), CliError> {
+        let controller = self.controller();
+        let cells = || (0..controller.num_cells()).map(CellId);
+        let of_memory =
+            |memory| cells().map(|cell| controller.entries(memory, cell).len() as u64).sum::<u64>();
+        let memories = controller.task().memories();
+        let entries: u64 = (0..memories).map(of_memory).sum();
+        let bytes = BYTES_OF_CELL * u64::from(controller.num_cells()) * u64::from(memories)
+            + BYTES_OF_ENTRY * entries;
+        require_memory(what, bytes).map_err(|error| CliError::Input(format!("{error}\n  {remedy}")))
     }
 
     /// The name of the model.

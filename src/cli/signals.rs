@@ -42,9 +42,8 @@ pub(crate) fn watch() -> Result<(), CliError> {
 /// Asks for a clean end, or ends the program.
 #[cfg(unix)]
 fn end() {
-    use std::sync::atomic::Ordering;
     let listener = LISTENER.lock().unwrap_or_else(PoisonError::into_inner).clone();
-    let asked_before = listener.is_none_or(|bars| bars.interrupt().swap(true, Ordering::Relaxed));
+    let asked_before = listener.is_none_or(|bars| bars.interrupt());
     if asked_before {
         imdp::files::abandon_all();
         warn("error: interrupted\n");

@@ -3,8 +3,8 @@
 use super::simulation_noise::SaidOfNoise;
 use super::{CliError, thousands, warn};
 use dynabs::controller::{Controller, Frequency, Tally};
-use dynabs::guarantee::{Safety, lower_bound_text};
-use dynabs::task::Aim;
+use dynabs::guarantee::lower_bound_text;
+use dynabs::task::{Aim, Safety};
 use imdp::numeric::{Rational, from_decimal, shortest_decimal, to_f64};
 use num_traits::One;
 use serde::Serialize;

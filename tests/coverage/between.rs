@@ -11,12 +11,12 @@
 //! - of 188 samples 11 ± 3 are kicked. Twenty are discarded, so that windows know of no kick in 299 of 300 sample sets; and a seventh of the small ones reach back into the next cell, so that windows list it and its mirror image.
 
 use dynabs::abstraction::{Abstraction, compile};
-use dynabs::guarantee::Safety;
 use dynabs::partition::{CellId, CellKind};
 use dynabs::problem::{
     Gain, GivenSamples, InputSet, LinearDynamics, LowerLayer, Partition, Probabilities, Problem, RegionBox,
     SampleKind, Task,
 };
+use dynabs::task::Safety;
 use imdp::model::{Row, RowBuffer, RowId, StateId};
 use imdp::solver::{Answer, SolverOptions};
 use rand::{RngExt, SeedableRng};

@@ -25,7 +25,7 @@ fn write(model: &IntervalMdp, format: Format, directory: &Path) -> PathBuf {
 }
 
 fn read(path: &Path) -> IntervalMdp {
-    Format::of_path(path).unwrap().import(path, &mut |_| {}).unwrap().model
+    Format::of_path(path).unwrap().import(path, &()).unwrap().model
 }
 
 /// The parts of a model, to change some of them.

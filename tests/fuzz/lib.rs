@@ -2,7 +2,8 @@
 //! can be written, read again and solved with a certificate that the checker accepts.
 
 use dynabs::abstraction::compile;
-use dynabs::imdp::certificate::{self, Certificate};
+use dynabs::imdp::certificate::{self, Certificate, Statement};
+use dynabs::imdp::evaluation::check_derivation;
 use dynabs::imdp::formats::umb::Compression;
 use dynabs::imdp::formats::{Format, ModelWriter, native};
 use dynabs::imdp::model::IntervalMdp;
@@ -82,6 +83,10 @@ pub fn certificate(data: &[u8]) {
     }
     let digest: String = sha256(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
     bytes.extend_from_slice(format!("end {digest}\n").as_bytes());
+    if let Ok(Statement::Expression(derivation)) = certificate::read_statement(&bytes) {
+        // Whatever it says about this model, it is judged.
+        let _ = check_derivation(&derivation, &small_model(), &derivation.files);
+    }
     let Ok(certificate) = certificate::read(&bytes) else { return };
     assert_eq!(again(&certificate), certificate, "a certificate is read as it was written");
     let model = small_model();
@@ -140,7 +145,7 @@ pub fn csv(data: &[u8]) {
 
 /// Reads a model; what is accepted is a model.
 fn import(format: Format, path: &Path) {
-    if let Ok(imported) = format.import(path, &mut |_| {}) {
+    if let Ok(imported) = format.import(path, &()) {
         exercise(&imported.model);
     }
 }
@@ -159,7 +164,7 @@ fn exercise(model: &IntervalMdp) {
             writer.write(extension, &mut bytes, &()).expect("a buffer takes everything");
             fs::write(path.with_extension(extension), bytes).expect("a scratch file");
         }
-        let read = format.import(&path, &mut |_| {});
+        let read = format.import(&path, &());
         let read = read.unwrap_or_else(|error| panic!("{format}: what was written is not read: {error}")).model;
         assert_eq!(read.num_states(), model.num_states(), "{format}");
         if format == Format::Native {
@@ -221,7 +226,7 @@ fn small_model() -> IntervalMdp {
         );
         write("small.lab", b"0=\"init\" 1=\"deadlock\" 2=\"goal\" 3=\"bad\"\n0: 0\n1: 3\n3: 2\n");
         write("small.sta", b"(x,b)\n0:(0,true)\n1:(1,false)\n2:(-2,true)\n3:(3,false)\n");
-        Format::Prism.import(&tra, &mut |_| {}).expect("the small model").model
+        Format::Prism.import(&tra, &()).expect("the small model").model
     };
     MODEL.with(|model| model.get_or_init(read).clone())
 }

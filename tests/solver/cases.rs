@@ -130,7 +130,7 @@ fn limits_leave_sound_bounds() {
         let (lower, upper) = values(&solution, 0);
         assert!(lower < 0.5 && (0.5..=1.0).contains(&upper));
         let flag = std::sync::atomic::AtomicBool::new(true);
-        let options = SolverOptions { interrupt: Some(&flag), ..Default::default() };
+        let options = SolverOptions { progress: &flag, ..Default::default() };
         let solution = solve(&m, &query, Resolution::Pmaxmin, &options).unwrap();
         assert_eq!(solution.status, Status::Interrupted);
     }

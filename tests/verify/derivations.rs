@@ -210,6 +210,28 @@ fn what_is_accepted_is_true() {
 }
 
 #[test]
+fn numbers_too_large_to_be_added_up_prove_nothing() {
+    let rows = [vec![(0, 0.2, 0.5), (1, 0.5, 0.8)]];
+    let model = crate::solver::models::model(&rows, &[Some(vec![(0, 0)]), None]);
+    let goal = crate::solver::models::set(2, &[1]);
+    let model = labelled(&model, &goal, &goal);
+    let earning = |reward: f64| {
+        let mut rewards = RewardStructure::new("cost");
+        rewards.branches.insert(0, vec![reward, 0.0]);
+        model.clone().with_rewards(vec![rewards]).unwrap()
+    };
+    let (_, honest) = derived(&earning(1.0), &expression(PATHS[0], "maxmax")).unwrap();
+    for reward in [1e300, f64::MAX] {
+        let rejection = check_derivation(&honest, &earning(reward), &files()).unwrap_err().to_string();
+        assert!(rejection.contains("less than 1e300"), "{rejection}");
+    }
+    let mut forged = honest.clone();
+    let Evidence::RewardInductive(proof) = &mut forged.proofs[0] else { unreachable!() };
+    proof.upper[0].1 = f64::MAX;
+    assert!(check_derivation(&forged, &earning(1.0), &files()).is_err());
+}
+
+#[test]
 fn a_proof_is_about_what_it_says() {
     let model =
         crate::solver::models::model(&[vec![(0, 0.2, 0.5), (1, 0.5, 0.8)]], &[Some(vec![(0, 0)]), None]);

@@ -40,7 +40,7 @@ fn interrupted_computations_are_certified_as_far_as_they_went() {
                 let options = SolverOptions { max_iterations, ..Default::default() };
                 certified(&compiled.model, &property, &options);
             }
-            let options = SolverOptions { interrupt: Some(&flag), ..Default::default() };
+            let options = SolverOptions { progress: &flag, ..Default::default() };
             let (answer, _) = certified(&compiled.model, &property, &options);
             assert_ne!(answer.solution.status, Status::HorizonReached);
         }

@@ -10,8 +10,8 @@ use super::simulate::{SimulateArguments, run as simulate};
 use super::solve::{SolveArguments, run as solve};
 use super::validate::{ValidateArguments, run as validate};
 use super::verify::{VerifyArguments, run as verify};
-use crate::memory::{bytes, use_memory};
-use crate::{CliError, use_threads};
+use crate::CliError;
+use crate::resources::Resources;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -22,20 +22,17 @@ pub struct CheckArguments {
     #[command(subcommand)]
     command: Command,
 
-    /// Use this many threads; no result depends on it.
-    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
-
-    /// Refuse what needs more memory than this, such as 500M or 16G; another engine may use as much.
-    #[arg(long, global = true, value_name = "LIMIT", value_parser = bytes)]
-    memory: Option<u64>,
+    #[command(flatten)]
+    resources: Resources,
 }
 
+/// What `dynabs-check` can do.
 #[derive(Clone, Debug, Subcommand)]
-enum Command {
+pub(super) enum Command {
     /// Solve properties of a compiled model or of a model in a file.
     Solve(SolveArguments),
     /// Write the controller of a compiled model as JSON, CSV or C.
+    #[command(visible_alias = "export")]
     Controller(ControllerArguments),
     /// Simulate the closed loop of a compiled model and compare with what is promised.
     Simulate(SimulateArguments),
@@ -65,10 +62,16 @@ the bounds straddle the threshold, or an engine gave no answer), 4 I/O, memory o
 /// # Errors
 /// [`CliError`], which knows its exit code.
 pub fn run(arguments: &CheckArguments) -> Result<ExitCode, CliError> {
-    use_threads(arguments.threads)?;
-    use_memory(arguments.memory);
-    let memory = arguments.memory;
-    match &arguments.command {
+    arguments.resources.apply()?;
+    run_command(&arguments.command)
+}
+
+/// Runs a subcommand.
+///
+/// # Errors
+/// [`CliError`], which knows its exit code.
+pub(super) fn run_command(command: &Command) -> Result<ExitCode, CliError> {
+    match command {
         Command::Solve(arguments) => solve(arguments),
         Command::Controller(arguments) => controller(arguments),
         Command::Simulate(arguments) => simulate(arguments),
@@ -78,6 +81,6 @@ pub fn run(arguments: &CheckArguments) -> Result<ExitCode, CliError> {
         Command::Convert(arguments) => convert(arguments),
         Command::Report(arguments) => report(arguments),
         Command::Diff(arguments) => diff(arguments),
-        Command::Crosscheck(arguments) => crosscheck(arguments, memory),
+        Command::Crosscheck(arguments) => crosscheck(arguments),
     }
 }

@@ -3,11 +3,11 @@
 use super::compile_inputs;
 use super::solve::LimitArguments;
 use crate::choices::format_names;
-use crate::memory::{bytes, peak, use_memory};
+use crate::resources::{Resources, peak};
 use crate::results::{PropertyResult, exit_code, table};
 use crate::summary::{memory, memory_json, summary};
-use crate::{Bars, CliError, EncodingName, print, use_threads, warn};
-use clap::Parser;
+use crate::{Bars, CliError, EncodingName, print, warn};
+use clap::{Args, Parser};
 use dynabs::abstraction::{Abstraction, Footprint, compile};
 use dynabs::controller::Controller;
 use dynabs::explain::explain;
@@ -28,7 +28,18 @@ use std::time::{Duration, Instant};
 
 /// Compile a noisy linear control system into an interval MDP with guaranteed probabilities, for PRISM.
 #[derive(Clone, Debug, Parser)]
-#[command(name = "dynabs-compile", version, after_help = AFTER_HELP)]
+#[command(name = "dynabs-compile", version)]
+pub struct CompileTool {
+    #[command(flatten)]
+    arguments: CompileArguments,
+
+    #[command(flatten)]
+    resources: Resources,
+}
+
+/// What to compile, and what to make of it.
+#[derive(Clone, Debug, Args)]
+#[command(after_help = AFTER_HELP)]
 pub struct CompileArguments {
     /// The model file (JSON).
     #[arg(required_unless_present_any = ["init", "schema"])]
@@ -85,14 +96,6 @@ pub struct CompileArguments {
     #[arg(short, long)]
     quiet: bool,
 
-    /// Use this many threads; the output does not depend on it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
-
-    /// Refuse what needs more memory than this, such as 500M or 16G.
-    #[arg(long, value_name = "LIMIT", value_parser = bytes)]
-    memory: Option<u64>,
-
     /// Write a starter model to FILE.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["model", "output", "schema"])]
     init: Option<PathBuf>,
@@ -121,20 +124,27 @@ Examples:
 ///
 /// # Errors
 /// [`CliError`], which knows its exit code.
-pub fn run(arguments: &CompileArguments) -> Result<ExitCode, CliError> {
+pub fn run(tool: &CompileTool) -> Result<ExitCode, CliError> {
+    tool.resources.apply()?;
+    compile_or_init(&tool.arguments)
+}
+
+/// Compiles a model, or writes one to start from.
+///
+/// # Errors
+/// [`CliError`], which knows its exit code.
+pub(super) fn compile_or_init(arguments: &CompileArguments) -> Result<ExitCode, CliError> {
     if arguments.schema {
         print(&json_schema())?;
     } else if let Some(file) = &arguments.init {
         write_starter(file, arguments.quiet)?;
     } else if let Some(model) = &arguments.model {
-        use_threads(arguments.threads)?;
-        use_memory(arguments.memory);
         return compile_model(arguments, model);
     }
     Ok(ExitCode::SUCCESS)
 }
 
-fn write_starter(file: &Path, quiet: bool) -> Result<(), CliError> {
+pub(super) fn write_starter(file: &Path, quiet: bool) -> Result<(), CliError> {
     let shown = file.display();
     let mut files = Outputs::default();
     let written = files.write(file, |out| out.write_all(starter_model().as_bytes()));

@@ -2,14 +2,14 @@
 
 use super::compile::pruned;
 use crate::input_summary::{InputResult, summary};
-use crate::memory::peak;
+use crate::resources::peak;
 use crate::summary::{memory, memory_json};
 use crate::{Bars, CliError, print, warn};
 use dynabs::abstraction::inputs::{CostError, InputAbstraction, InputEncoding, InputModel, InputsError};
 use dynabs::landing::FlatModelError;
 use dynabs::model_file::Document;
 use dynabs::problem::InputProblem;
-use dynabs::run::{Manifest, PruningReport, WriteOptions, write_input_run};
+use dynabs::run::{Manifest, PruningReport, WriteOptions, input_solution_options, write_input_run};
 use imdp::progress::Progress;
 use imdp::solver::SolverOptions;
 use serde_json::{Map, Value, json};
@@ -67,14 +67,8 @@ pub(super) fn compile_inputs(
     let solving = Instant::now();
     let mut kept = None;
     let result = if wanted.solve {
-        let progress =
-            |step, change: f64| bars.note(|| format!("step {step}, values change by {change:.1e}"));
-        let options = SolverOptions {
-            interrupt: Some(bars.interrupt()),
-            progress: Some(&progress),
-            ..SolverOptions::default()
-        };
-        let solution = abstraction.question().solve(&options);
+        let options = SolverOptions { progress: &**bars, ..SolverOptions::default() };
+        let solution = abstraction.question().solve(&input_solution_options(problem, &options));
         let result = InputResult::new(problem, &abstraction, &solution, solving.elapsed());
         let result = match &exported {
             Some(Exported { model, .. }) if model.encoding == InputEncoding::Flat => {

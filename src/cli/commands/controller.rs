@@ -34,6 +34,9 @@ pub fn run(arguments: &ControllerArguments) -> Result<ExitCode, CliError> {
     let form = Form::of(path)?;
     let bars = Arc::new(Bars::new(arguments.quiet));
     let run = Controlled::open(&arguments.directory, &bars)?;
+    if !matches!(form, Form::Csv) {
+        run.require_text("the controller as one text", "Write .csv instead, or use fewer /partition/cells.")?;
+    }
     let controller = run.controller();
     match form {
         Form::Json => replace(path, |out| match &run {

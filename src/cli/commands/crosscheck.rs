@@ -14,7 +14,7 @@ use imdp::engines::{
 use imdp::evaluation::direct;
 use imdp::formats::Format;
 use imdp::formats::prism::check_names;
-use imdp::model::available_memory;
+use imdp::model::{available_memory, given_memory};
 use imdp::property::Inquiry;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -87,11 +87,11 @@ Examples:
 /// No engine does anything with less.
 const LEAST_MEMORY_MIB: u64 = 16;
 
-/// Runs the subcommand; an engine may use so much memory in bytes, else three quarters of what is available.
+/// Runs the subcommand.
 ///
 /// # Errors
 /// [`CliError`], which knows its exit code.
-pub fn run(arguments: &CrosscheckArguments, memory: Option<u64>) -> Result<ExitCode, CliError> {
+pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     let Engines { found, missing } = find_engines(arguments)?;
     let bars = Arc::new(Bars::new(arguments.quiet));
     let loaded = load(&arguments.path, false, &bars)?;
@@ -113,12 +113,9 @@ pub fn run(arguments: &CrosscheckArguments, memory: Option<u64>) -> Result<ExitC
 
     bars.catch_interrupts();
     let available = || available_memory().map_or(4 << 30, |(bytes, _)| bytes / 4 * 3);
-    let memory_mib = (memory.unwrap_or_else(available) >> 20).max(LEAST_MEMORY_MIB);
-    let limits = RunLimits {
-        timeout: Duration::from_secs_f64(arguments.timeout),
-        memory_mib,
-        interrupt: Some(bars.interrupt()),
-    };
+    let memory_mib = (given_memory().unwrap_or_else(available) >> 20).max(LEAST_MEMORY_MIB);
+    let limits =
+        RunLimits { timeout: Duration::from_secs_f64(arguments.timeout), memory_mib, progress: &*bars };
     let engines: Vec<&dyn Engine> = found.iter().map(|engine| &**engine).collect();
     let findings = LimitArguments::of_epsilon(arguments.epsilon).with_options(&bars, |solver| {
         cross_check(&subject, &inquiries, &engines, &CrossCheckOptions { solver: *solver, limits })

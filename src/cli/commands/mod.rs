@@ -1,5 +1,6 @@
 //! One file for every subcommand.
 
+pub mod all;
 pub mod check;
 pub mod compile;
 mod compile_inputs;

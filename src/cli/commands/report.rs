@@ -11,13 +11,13 @@ use dynabs::report::{
 };
 use dynabs::run::Manifest;
 use imdp::files::Outputs;
+use imdp::progress::Progress;
 use imdp::solver::SolverOptions;
 use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 /// What to report, and where.
@@ -71,7 +71,9 @@ impl From<CrossCheckError> for CliError {
 pub fn run(arguments: &ReportArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
     let start = Instant::now();
-    let (page, pictures) = match Controlled::open(&arguments.directory, &bars)? {
+    let run = Controlled::open(&arguments.directory, &bars)?;
+    run.require_text("the page", "Use fewer /partition/cells.")?;
+    let (page, pictures) = match run {
         Controlled::Inputs(solved, controller) => of_inputs(arguments, &solved, &controller, start, &bars)?,
         Controlled::Targets(refined) => {
             let Refined { run, answer, controller } = &*refined;
@@ -80,7 +82,7 @@ pub fn run(arguments: &ReportArguments) -> Result<ExitCode, CliError> {
             (page(&material), pictures(&material))
         }
     };
-    if bars.interrupt().load(Ordering::Relaxed) {
+    if bars.is_interrupted() {
         return Err(CliError::Interrupted);
     }
     let page = page.map_err(|error| CliError::Failure(error.to_string()))?;
@@ -114,7 +116,7 @@ fn of_inputs(
     start: Instant,
     bars: &Bars,
 ) -> Result<Reported, CliError> {
-    let solver = SolverOptions { interrupt: Some(bars.interrupt()), ..SolverOptions::default() };
+    let solver = SolverOptions { progress: bars, ..SolverOptions::default() };
     let solution = run.by_step(solution, &solver);
     let options = options(arguments, &run.manifest, start)?;
     let material = InputMaterial::new(run, &solution, controller, options, bars);

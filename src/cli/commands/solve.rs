@@ -3,9 +3,9 @@
 use crate::exports::{write_cell_policy, write_cell_values, write_evaluated, write_policy, write_values};
 use crate::input_run_source::SolvedInputs;
 use crate::input_summary::InputResult;
-use crate::memory::peak;
 use crate::model_source::{LoadedModel, load, model_help};
 use crate::questions::{Asked, QuestionArguments};
+use crate::resources::peak;
 use crate::results::{PropertyResult, exit_code, table};
 use crate::{Bars, CliError, print, print_json, warn};
 use clap::Args;
@@ -317,14 +317,11 @@ impl LimitArguments {
 
     /// Computes something within these limits, with the current gap on display.
     pub(super) fn with_options<T>(&self, bars: &Bars, compute: impl FnOnce(&SolverOptions<'_>) -> T) -> T {
-        let progress =
-            |iteration, gap: f64| bars.note(|| format!("iteration {iteration}, bounds {gap:.1e} apart"));
         let result = compute(&SolverOptions {
             epsilon: self.epsilon,
             max_iterations: self.max_iterations.unwrap_or(u64::MAX),
             time_limit: self.time_limit.map(Duration::from_secs_f64),
-            interrupt: Some(bars.interrupt()),
-            progress: Some(&progress),
+            progress: bars,
             ..SolverOptions::default()
         });
         bars.finish();

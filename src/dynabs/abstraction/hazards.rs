@@ -1,9 +1,9 @@
 //! What must be avoided at every step.
 
 use super::room::{RUNGS, Room};
-use crate::guarantee::Safety;
 use crate::partition::Region;
 use crate::problem::{Probabilities, Problem};
+use crate::task::Safety;
 use imdp::numeric::{Rational, to_f64_down, to_f64_up};
 
 /// The unsafe regions as boxes in doubles, rounded outwards, and the partition if its outside is unsafe too, rounded

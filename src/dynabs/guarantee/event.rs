@@ -1,7 +1,7 @@
 //! What is promised to happen.
 
 use crate::problem::{InputProblem, Problem};
-use crate::task::Aim;
+use crate::task::{Aim, Safety};
 use serde::{Deserialize, Serialize};
 
 /// Reaching the goal in time and avoiding the unsafe region until then, or staying in the safe region.
@@ -21,16 +21,6 @@ pub struct Event {
     pub safety: Safety,
     /// When the outside of the partition is avoided: like the unsafe region where the task says so.
     pub outside: Safety,
-}
-
-/// When the unsafe region is avoided.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Safety {
-    /// At every step of the original system.
-    EveryStep,
-    /// After every group of steps only: it may be crossed in between.
-    GroupedInstants,
 }
 
 impl Event {

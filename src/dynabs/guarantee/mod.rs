@@ -15,11 +15,11 @@ mod words;
 pub use bound::{Bound, lower_bound_text};
 pub use claim::Claim;
 pub use coverage::Coverage;
-pub use event::{Event, Safety};
+pub use event::Event;
 pub use evidence::{Evidence, SampleEvidence};
 pub use gap::Gap;
 
-use crate::task::Aim;
+use crate::task::{Aim, Safety};
 use imdp::numeric::{Rational, from_decimal, to_f64};
 use num_traits::One;
 use serde::ser::SerializeStruct;

@@ -1,7 +1,7 @@
 //! A guarantee in words: sentences and lists of plain ASCII.
 
-use super::{Bound, Evidence, Guarantee, Safety, SampleEvidence, lower_bound_text};
-use crate::task::Aim;
+use super::{Bound, Evidence, Guarantee, SampleEvidence, lower_bound_text};
+use crate::task::{Aim, Safety};
 use imdp::numeric::shortest_decimal;
 
 /// What the samples must not have a say in.

@@ -7,8 +7,8 @@ use super::task_fields::{
     UnsafeSpec,
 };
 use crate::Diagnostic;
-use crate::guarantee::Safety;
 use crate::problem::{Hazard, Leg, Logic, RegionBox, RegionParts, ShapeParts, Task, Wanted};
+use crate::task::Safety;
 use imdp::files;
 use std::path::Path;
 

@@ -90,19 +90,21 @@ pub struct Grid {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GridError {
     /// A dimension has no cells.
-    #[error("dimension {dimension} has no cells")]
+    #[error("dimension {dimension}: found no cells; expected at least one")]
     NoCells {
         /// Which dimension.
         dimension: usize,
     },
     /// `lower < upper` does not hold.
-    #[error("dimension {dimension} is empty: lower is not below upper")]
+    #[error(
+        "dimension {dimension}: found a lower side that is not below the upper one; expected one that is"
+    )]
     EmptyAxis {
         /// Which dimension.
         dimension: usize,
     },
     /// The number of cells is beyond what PRISM and this tool can number.
-    #[error("{cells} cells, more than the {limit} that can be numbered", limit = Grid::MAX_CELLS)]
+    #[error("found {cells} cells; expected at most {limit}, which can be numbered", limit = Grid::MAX_CELLS)]
     TooManyCells {
         /// The product of the numbers of cells.
         cells: BigInt,

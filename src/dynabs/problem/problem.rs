@@ -3,10 +3,9 @@
 use super::{Dynamics, GroupingTrial, InputSet, Probabilities, ProblemBuilder, SampledNoise, Stabilizer};
 use crate::Warning;
 use crate::geometry::Polytope;
-use crate::guarantee::Safety;
 use crate::partition::{CellId, CellLabels, Grid, Region};
 use crate::system::LinearSystem;
-use crate::task::{Aim, AutomatonTask, CellTask};
+use crate::task::{Aim, AutomatonTask, CellTask, Safety};
 use imdp::numeric::Rational;
 use imdp::property::Probability;
 

@@ -5,12 +5,11 @@ use super::numbers::tuple;
 use super::scene::{Scene, SceneActions, faces};
 use super::values::StepValues;
 use crate::controller::{Controller, ParameterChoice, Simulation};
-use crate::guarantee::Safety;
 use crate::landing::LandingSolution;
 use crate::partition::{CellId, CellKind, Region};
 use crate::problem::{InputNoise, InputProblem, Objective};
 use crate::run::InputRun;
-use crate::task::Standing;
+use crate::task::{Safety, Standing};
 use imdp::numeric::to_f64;
 use imdp::progress::Progress;
 

@@ -2,8 +2,8 @@
 
 use super::values::StepValues;
 use crate::controller::{Tally, Trajectory};
-use crate::guarantee::Safety;
 use crate::partition::{CellId, CellKind, Grid, GridAxis, Region};
+use crate::task::Safety;
 use imdp::numeric::to_f64;
 
 /// The most columns of a time axis of an unbounded task.

@@ -5,8 +5,9 @@ use super::markup::{escape, table};
 use super::material::{Material, MaterialOptions};
 use super::numbers::{short, tuple};
 use super::scene::Scene;
-use crate::guarantee::{Evidence, Safety};
+use crate::guarantee::Evidence;
 use crate::run::Manifest;
+use crate::task::Safety;
 use imdp::engines::CrossCheckFile;
 use imdp::numeric::{round_decimal_up, shortest_decimal};
 

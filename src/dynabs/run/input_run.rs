@@ -86,7 +86,7 @@ impl InputRun {
 
     /// The solution of the task: the one that the run holds, or else it is computed, with the same result.
     pub fn solution(&self, options: &SolverOptions<'_>) -> LandingSolution {
-        self.solution.clone().unwrap_or_else(|| self.solve(options))
+        self.solution.clone().unwrap_or_else(|| self.solve(&input_solution_options(&self.problem, options)))
     }
 
     /// Computes bounds on the value of every cell and the policy behind them; the same for the same directory and options.

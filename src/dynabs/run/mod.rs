@@ -22,6 +22,6 @@ pub use open::Run;
 pub use pruning::PruningReport;
 pub use record::{RecordError, open_record};
 pub use row_states::RowStatesReport;
-pub use solution::solution_options;
+pub use solution::{input_solution_options, solution_options};
 pub use staging::{RunDirectoryError, Staging};
 pub use write::{WriteOptions, write_run};

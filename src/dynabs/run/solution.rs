@@ -21,10 +21,7 @@ pub fn solution_options<'a>(problem: &Problem, options: &SolverOptions<'a>) -> S
 }
 
 /// What reports need of the solution of a problem whose actions are inputs; a task with a memory is another one later.
-pub(super) fn input_solution_options<'a>(
-    problem: &InputProblem,
-    options: &SolverOptions<'a>,
-) -> SolverOptions<'a> {
+pub fn input_solution_options<'a>(problem: &InputProblem, options: &SolverOptions<'a>) -> SolverOptions<'a> {
     let has_memory = problem.cell_task().memories() > 1;
     let history = kept_steps(problem.grid().num_cells(), problem.horizon().filter(|_| !has_memory));
     SolverOptions { policy: true, history, ..*options }

@@ -9,9 +9,11 @@ mod automaton;
 mod cells;
 mod labels;
 mod region;
+mod safety;
 
 pub use automaton::AutomatonTask;
 pub use cells::{CellTask, Letters, Memory, Standing};
 pub use imdp::automaton::Aim;
 pub use labels::{Label, Letter};
 pub use region::{HalfSpace, LetterLookup, NamedRegion, Shape};
+pub use safety::Safety;

@@ -48,6 +48,17 @@ pub enum LtlError {
         /// How many are allowed.
         limit: usize,
     },
+    /// A bound on steps is unfolded, and would take too long.
+    #[error(
+        "found a bound of {found} steps inside of a larger path formula; expected at most {limit} (alone, as in P=? [ F<=1000 \"a\" ], \
+         any number will do)"
+    )]
+    Steps {
+        /// The steps.
+        found: u64,
+        /// How many are allowed.
+        limit: u64,
+    },
     /// No prefix of a word decides the formula, by its form.
     #[error(
         "the formula is neither safe nor co-safe: something has to hold for ever or again and again, and something else to come"

@@ -2,11 +2,11 @@
 
 use super::{CompareError, PolicyFile, Record, RecordedResult, Reference, ResultsFile, Sizes};
 use crate::files;
-use crate::formats::{Format, LineError, StateValues, bmdp};
+use crate::formats::{Format, Held, LineError, StateValues, bmdp};
 use crate::property::{Definitions, Entry, Inquiry, Property, parse_document};
 use serde_json::Value;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The files of a directory that are looked for.
 const FILES: &str = "model.dynabs, model.tra, results.json, values.txt or policy.txt";
@@ -17,25 +17,16 @@ const FILES: &str = "model.dynabs, model.tra, results.json, values.txt or policy
 /// [`CompareError`] if nothing is there, or something malformed.
 pub fn open(path: &Path) -> Result<Record, CompareError> {
     let name = path.display().to_string();
-    let explicit = PathBuf::from(format!("{name}.tra"));
-    let mut record = if path.is_dir() {
-        open_directory(path)?
-    } else if !path.exists() && explicit.exists() {
-        open_model(&explicit)?
-    } else if !path.exists() {
-        return Err(CompareError::Missing { path: name });
-    } else {
-        match path.extension().and_then(|extension| extension.to_str()) {
-            // A .txt file may be anything; those of bmdp-tool begin with a number.
-            _ if Format::of_path(path).is_some_and(|format| format != Format::Bmdp || bmdp::begins(path)) => {
-                open_model(path)?
-            }
-            Some("json") => open_json(path)?,
-            _ => {
-                let endings = Format::endings(Format::all());
-                let expected = format!("a directory, or a file that ends in {endings}, or in .json");
-                return Err(CompareError::Unusable { path: name, found: "another file".into(), expected });
-            }
+    let mut record = match Held::at(path) {
+        Held::Directory => open_directory(path)?,
+        // A .txt file may be anything; those of bmdp-tool begin with a number.
+        Held::Model(format, path) if format != Format::Bmdp || bmdp::begins(&path) => open_model(&path)?,
+        Held::Json => open_json(path)?,
+        Held::Nothing => return Err(CompareError::Missing { path: name }),
+        Held::Model(..) | Held::Other => {
+            let endings = Format::endings(Format::all());
+            let expected = format!("a directory, or a file that ends in {endings}, or in .json");
+            return Err(CompareError::Unusable { path: name, found: "another file".into(), expected });
         }
     };
     if record.title.is_empty() {
@@ -82,7 +73,7 @@ pub fn collect(directory: &Path) -> Result<Option<Record>, CompareError> {
 /// A model and the properties beside it.
 fn open_model(path: &Path) -> Result<Record, CompareError> {
     let format = Format::of_path(path).unwrap_or(Format::Prism);
-    let imported = format.import(path, &mut |_| {})?;
+    let imported = format.import(path, &())?;
     let warnings = imported.warnings.iter().map(|warning| format!("{}: {warning}", path.display())).collect();
     let model = imported.model;
     let beside = path.with_extension("props");

@@ -2,10 +2,10 @@
 
 use super::EngineFailure;
 use super::process_group::Group;
+use crate::progress::Progress;
 use std::io::{self, Read};
 use std::path::PathBuf;
 use std::process::{Command, ExitStatus, Stdio};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -15,14 +15,14 @@ const POLL: Duration = Duration::from_millis(20);
 const KEPT: usize = 1 << 16;
 
 /// What a program may use.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct RunLimits<'a> {
     /// How long each question may take.
     pub timeout: Duration,
     /// The memory, in MiB.
     pub memory_mib: u64,
-    /// Ends everything when set.
-    pub interrupt: Option<&'a AtomicBool>,
+    /// Ends everything when it is interrupted.
+    pub progress: &'a dyn Progress,
 }
 
 /// How a program ended by itself.
@@ -47,7 +47,7 @@ pub(super) fn run(
     progress: impl Fn() -> usize,
 ) -> Result<Ended, EngineFailure> {
     let start = Instant::now();
-    let is_interrupted = || limits.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed));
+    let is_interrupted = || limits.progress.is_interrupted();
     if is_interrupted() {
         return Err(EngineFailure::Interrupted);
     }

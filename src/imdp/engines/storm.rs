@@ -65,7 +65,7 @@ impl Storm {
     /// Asks a Python for the version of its stormpy.
     fn try_python(name: &Path) -> Result<Self, String> {
         let python = find(name).ok_or("is no program")?;
-        let limits = RunLimits { timeout: PATIENCE, memory_mib: u64::MAX, interrupt: None };
+        let limits = RunLimits { timeout: PATIENCE, memory_mib: u64::MAX, progress: &() };
         let mut command = Command::new(&python);
         command.args(["-c", "import stormpy; print('stormpy', stormpy.__version__)"]);
         let ended = run(&mut command, &limits, true, || 0).map_err(|failure| match failure {

@@ -3,7 +3,7 @@
 use super::expression::Evaluator;
 use super::operator::steps;
 use super::{EvaluationError, Known, Truth};
-use crate::automaton::Ltl;
+use crate::automaton::{Ltl, LtlError};
 use crate::model::IntervalMdp;
 use crate::property::{
     BinaryOperator, Node, NodeKind, Resolution, StepBounds, TemporalOperator, UntilOperator,
@@ -156,6 +156,13 @@ impl Evaluator<'_> {
             });
             return Ok(Ltl::Proposition(index as u32));
         }
+        if let NodeKind::Temporal(_, bounds, _) | NodeKind::Until(_, bounds, _) = &node.kind {
+            let (first, last) = range(bounds);
+            let found = last.map_or(first, |last| last.max(first));
+            if found > MOST_UNFOLDED {
+                return Err(LtlError::Steps { found, limit: MOST_UNFOLDED }.into());
+            }
+        }
         let mut boxed = |node: &Node, this: &mut Self| this.formula(node, propositions).map(Box::new);
         Ok(match &node.kind {
             NodeKind::Not(operand) => Ltl::Not(boxed(operand, self)?),
@@ -187,7 +194,10 @@ impl Evaluator<'_> {
     }
 }
 
-/// So many steps are unfolded at most; more are refused when the automaton becomes too large.
+/// So many steps of a bound inside of LTL are unfolded at most.
+const MOST_UNFOLDED: u64 = 256;
+
+/// The first and the last step, if there is one, at which something may happen.
 fn range(bounds: &StepBounds) -> (u64, Option<u64>) {
     let first = bounds.lower.as_ref().map_or(0, |bound| {
         let plain = crate::property::StepBound { is_strict: false, ..(**bound).clone() };

@@ -207,3 +207,22 @@ fn components_are_those_of_all_choices() {
         assert_eq!(evaluation.bounds(StateId::from_index(0)), Some((value, value)), "{resolution}");
     }
 }
+
+/// Bounds inside of LTL are unfolded: so many steps that this would never end are refused.
+#[test]
+fn long_bounds_inside_of_ltl_are_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("m.tra");
+    std::fs::write(&path, "2 2 3\n0 0 0 [0.5,0.6] a\n0 0 1 [0.4,0.5] a\n1 0 1 [1,1] a\n").unwrap();
+    std::fs::write(path.with_extension("lab"), "0=\"init\" 1=\"deadlock\" 2=\"good\"\n0: 0\n1: 2\n").unwrap();
+    let model = prism::import(&path, None, Some(&path.with_extension("lab"))).unwrap().model;
+    let bounds = |path: &str| {
+        let asked = compound(&format!("Pmaxmin=? [ {path} ]"));
+        let evaluation = Evaluation::new(&model, &asked, None, &SolverOptions::default());
+        evaluation.map(|evaluation| evaluation.bounds(StateId(0))).map_err(|error| error.to_string())
+    };
+    assert_eq!(bounds("G (F<=200 \"good\")").map(|bounds| bounds.is_some()), Ok(true));
+    for path in ["G (F<=1000000000 \"good\")", "F (true U>=257 \"good\")"] {
+        assert!(bounds(path).unwrap_err().contains("expected at most 256"), "{path}");
+    }
+}

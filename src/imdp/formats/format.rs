@@ -2,6 +2,7 @@
 
 use super::import::{ImportError, Imported, without_packing};
 use super::{bmdp, drn, native, netcdf, prism, umb};
+use crate::progress::Progress;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -132,15 +133,16 @@ impl Format {
         }
     }
 
-    /// Reads a model; `progress` is told now and then how much has been read.
+    /// Reads a model; `progress` is told now and then how much more has been read.
     ///
     /// # Errors
     /// [`ImportError`] if the file is not as the format wants it.
-    pub fn import(
-        self,
-        path: &Path,
-        progress: &mut (dyn FnMut(u64) + Send),
-    ) -> Result<Imported, ImportError> {
+    pub fn import(self, path: &Path, progress: &dyn Progress) -> Result<Imported, ImportError> {
+        let mut before = 0;
+        let progress = &mut |read: u64| {
+            progress.advance(read.saturating_sub(before));
+            before = read;
+        };
         match self {
             Self::Prism => prism::import_files(&prism::ExplicitFiles::of(path), progress),
             Self::Combined => prism::import_combined(path, progress),

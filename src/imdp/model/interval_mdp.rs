@@ -113,7 +113,9 @@ pub enum ImdpError {
         error: RowError,
     },
     /// A row leads to a state that does not exist.
-    #[error("row {row} leads to state {successor}, but there are only {states} states")]
+    #[error(
+        "row {row}: found the successor {successor}; expected one of the {states} states, numbered from 0"
+    )]
     Successor {
         /// The row.
         row: RowId,
@@ -123,7 +125,7 @@ pub enum ImdpError {
         states: usize,
     },
     /// A state has a choice whose row does not exist.
-    #[error("state {state} chooses row {row}, but there are only {rows} rows")]
+    #[error("state {state}: found a choice of row {row}; expected one of the {rows} rows, numbered from 0")]
     Choice {
         /// The state.
         state: StateId,
@@ -133,7 +135,7 @@ pub enum ImdpError {
         rows: usize,
     },
     /// A set of states or a variable is not about the states of this model.
-    #[error("{what} covers {found} states, the model has {states}")]
+    #[error("{what}: found {found} states; expected {states}, as many as the model has")]
     Length {
         /// Which set or variable.
         what: String,
@@ -143,7 +145,7 @@ pub enum ImdpError {
         states: usize,
     },
     /// A state of an interval DTMC has a choice to make.
-    #[error("state {state} has {found} choices, states of an interval DTMC have one")]
+    #[error("state {state}: found {found} choices; expected one, as in all states of an interval DTMC")]
     Chain {
         /// The state.
         state: StateId,
@@ -151,7 +153,7 @@ pub enum ImdpError {
         found: usize,
     },
     /// The names of choices are not one for each choice.
-    #[error("{found} choices have an entry for their action, the model has {choices}")]
+    #[error("found {found} entries for the actions of choices; expected {choices}, one for each")]
     ActionCount {
         /// How many entries there are.
         found: usize,
@@ -159,7 +161,7 @@ pub enum ImdpError {
         choices: u64,
     },
     /// A choice has an action that does not exist.
-    #[error("choice {choice} has action {id}, but there are only {names} names")]
+    #[error("choice {choice}: found the action {id}; expected one of the {names} names, numbered from 0")]
     Action {
         /// The choice, counted over all states.
         choice: usize,
@@ -169,7 +171,7 @@ pub enum ImdpError {
         names: usize,
     },
     /// There is no initial state.
-    #[error("there is no initial state")]
+    #[error("found no initial state; expected at least one")]
     NoInitialState,
 }
 

@@ -6,9 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// More memory would be needed than there is.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "{what}: about {needed_mib} MiB of memory would be needed, {available_mib} MiB are available ({limit})"
-)]
+#[error("{what}: found {available_mib} MiB of memory available ({limit}); expected about {needed_mib} MiB")]
 pub struct MemoryError {
     /// What would be allocated.
     pub what: String,
@@ -41,6 +39,11 @@ pub fn limit_memory(bytes: u64) {
     GIVEN.store(bytes, Ordering::Relaxed);
 }
 
+/// What was given to [`limit_memory`].
+pub fn given_memory() -> Option<u64> {
+    Some(GIVEN.load(Ordering::Relaxed)).filter(|&bytes| bytes < u64::MAX)
+}
+
 /// The most memory that this process has had at a time, in bytes; `None` where the system does not tell.
 pub fn peak_memory() -> Option<u64> {
     field(&fs::read_to_string("/proc/self/status").ok()?, "VmHWM:")
@@ -70,7 +73,7 @@ pub fn available_memory() -> Option<(u64, MemoryLimit)> {
     let process = read("/proc/self/limits")
         .zip(status.as_ref())
         .and_then(|(limits, status)| of_process(&limits, status));
-    let given = Some(GIVEN.load(Ordering::Relaxed)).filter(|&bytes| bytes < u64::MAX);
+    let given = given_memory();
     let used = status.as_ref().and_then(|status| field(status, "VmRSS:")).unwrap_or(0);
     let named = [
         machine.map(|bytes| (bytes, MemoryLimit::Machine)),

@@ -23,7 +23,8 @@ pub use ids::{RowId, StateId};
 pub use interval_mdp::{ActionNames, ImdpError, IntervalMdp, ModelKind, Parts, Size};
 pub use labels::{Labels, StateVariable, StateVariables, VariableValues};
 pub use memory::{
-    GrowingMemory, MemoryError, MemoryLimit, available_memory, limit_memory, peak_memory, require_memory,
+    GrowingMemory, MemoryError, MemoryLimit, available_memory, given_memory, limit_memory, peak_memory,
+    require_memory,
 };
 pub use restrict::restrict;
 pub use rewards::{RewardError, RewardStructure, Rewards};

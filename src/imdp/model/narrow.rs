@@ -64,7 +64,7 @@ mod tests {
         let path = scratch.path().join("m.tra");
         std::fs::write(&path, "2 2 3\n0 0 0 [0.2,0.6]\n0 0 1 [0.4,0.6]\n1 0 1 1\n").unwrap();
         std::fs::write(path.with_extension("lab"), "0=\"init\"\n0: 0\n").unwrap();
-        let model = Format::Prism.import(&path, &mut |_| {}).unwrap().model;
+        let model = Format::Prism.import(&path, &()).unwrap().model;
         let bounds = |factor| {
             let narrowed = model.narrowed(factor).unwrap();
             let buffer = &mut RowBuffer::default();

@@ -28,7 +28,9 @@ pub struct Rewards {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RewardError {
     /// There is not one value for each.
-    #[error("the rewards \"{name}\" have {found} values for {what}, the model has {expected}")]
+    #[error(
+        "the rewards \"{name}\": found {found} values for {what}; expected {expected}, as many as the model has"
+    )]
     Length {
         /// The structure.
         name: String,
@@ -40,7 +42,7 @@ pub enum RewardError {
         expected: u64,
     },
     /// A reward is negative or not finite.
-    #[error("the rewards \"{name}\" hold {value}; expected finite numbers of at least 0")]
+    #[error("the rewards \"{name}\": found {value}; expected finite numbers of at least 0")]
     Value {
         /// The structure.
         name: String,
@@ -48,7 +50,7 @@ pub enum RewardError {
         value: f64,
     },
     /// Two structures have the same name.
-    #[error("there are two reward structures \"{name}\"")]
+    #[error("found two reward structures \"{name}\"; expected one of each name")]
     Twice {
         /// The name.
         name: String,

@@ -40,16 +40,16 @@ pub struct Row<'a> {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RowError {
     /// There is no successor.
-    #[error("the row has no successors")]
+    #[error("found no successors; expected at least one")]
     Empty,
     /// The successors are not strictly ascending.
-    #[error("successor {successor} is out of order or listed twice")]
+    #[error("found successor {successor} out of order or twice; expected them ascending")]
     Order {
         /// The successor.
         successor: StateId,
     },
     /// An interval is not within `[0, 1]` or its ends are swapped.
-    #[error("the interval [{lower}, {upper}] of successor {successor} is not within [0, 1]")]
+    #[error("found the interval [{lower}, {upper}] of successor {successor}; expected one within [0, 1]")]
     Interval {
         /// The successor.
         successor: StateId,
@@ -59,13 +59,13 @@ pub enum RowError {
         upper: f64,
     },
     /// No distribution fits because the lower bounds exceed 1.
-    #[error("the lower bounds sum to {sum}, above 1")]
+    #[error("found lower bounds that sum to {sum}; expected at most 1")]
     LowerSum {
         /// The sum.
         sum: f64,
     },
     /// No distribution fits because the upper bounds do not reach 1.
-    #[error("the upper bounds sum to {sum}, below 1")]
+    #[error("found upper bounds that sum to {sum}; expected at least 1")]
     UpperSum {
         /// The sum.
         sum: f64,

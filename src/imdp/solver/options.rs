@@ -1,7 +1,7 @@
 //! When to stop, and how it was stopped.
 
+use crate::progress::Progress;
 use std::fmt;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// When a computation stops and what it reports meanwhile; threads are those of the ambient rayon pool.
@@ -13,11 +13,9 @@ pub struct SolverOptions<'a> {
     pub max_iterations: u64,
     /// The time allowed, if limited.
     pub time_limit: Option<Duration>,
-    /// Stops the computation when set, from a signal handler for example.
-    pub interrupt: Option<&'a AtomicBool>,
-    /// Called after every iteration with its number and the distance of the bounds (for unbounded
-    /// queries: in the part of the model being solved, 1 before its first upper bound).
-    pub progress: Option<&'a (dyn Fn(u64, f64) + Sync)>,
+    /// Stops the computation when it is interrupted, and is told after every iteration how far the bounds are apart (for
+    /// unbounded queries: in the part of the model being solved, 1 before its first upper bound).
+    pub progress: &'a dyn Progress,
     /// Whether a policy is wanted.
     pub policy: bool,
     /// Bounded queries: whether bounds from above are wanted; without them, they are 1.
@@ -37,8 +35,7 @@ impl Default for SolverOptions<'_> {
             epsilon: 1e-6,
             max_iterations: u64::MAX,
             time_limit: None,
-            interrupt: None,
-            progress: None,
+            progress: &(),
             policy: false,
             upper: true,
             history: 0,
@@ -63,7 +60,7 @@ pub enum Status {
     IterationLimit,
     /// The allowed time was used up.
     TimeLimit,
-    /// The interrupt flag was set.
+    /// The user wanted it to end.
     Interrupted,
 }
 
@@ -101,7 +98,7 @@ impl<'a> Control<'a> {
 
     /// Why to stop now, if so.
     pub fn stop(&self) -> Option<Status> {
-        if self.options.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+        if self.options.progress.is_interrupted() {
             Some(Status::Interrupted)
         } else if self.iterations >= self.options.max_iterations {
             Some(Status::IterationLimit)
@@ -115,8 +112,6 @@ impl<'a> Control<'a> {
     /// Notes that an iteration is done.
     pub fn done(&mut self, gap: f64) {
         self.iterations += 1;
-        if let Some(progress) = self.options.progress {
-            progress(self.iterations, gap);
-        }
+        self.options.progress.iterate(self.iterations, gap);
     }
 }

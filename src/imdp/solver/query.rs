@@ -35,7 +35,7 @@ impl<'a> From<&'a QueryKind> for Event<'a> {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SolveError {
     /// A set is not about the states of the model.
-    #[error("the set of {what} states covers {found} states, the model has {states}")]
+    #[error("the set of {what} states: found {found} states; expected {states}, as many as the model has")]
     Length {
         /// Which set.
         what: &'static str,
@@ -46,11 +46,11 @@ pub enum SolveError {
     },
     /// Rewards are to be summed up for ever without a discount.
     #[error(
-        "rewards without end may have no finite sum; bound the steps, as in C<=10, or discount them, as in C, discount=0.9"
+        "found rewards without end, which may have no finite sum; expected a bound on the steps, as in C<=10, or a discount, as in C, discount=0.9"
     )]
     Undiscounted,
     /// The wanted distance of the bounds is not a positive number.
-    #[error("epsilon is {epsilon}; give a positive number, such as 1e-6")]
+    #[error("found the epsilon {epsilon}; expected a positive number, such as 1e-6")]
     Epsilon {
         /// What was given.
         epsilon: f64,

@@ -12,6 +12,9 @@ use std::collections::BTreeMap;
 /// Whole numbers below this are what was written.
 const EXACT: f64 = (1u64 << 53) as f64;
 
+/// Sums of numbers below this, and the powers of two above them, are finite doubles.
+pub(super) const LARGEST: f64 = 1e300;
+
 /// A reward as it was written, rounded to a side where the double may be another number.
 pub(super) fn reading(value: f64, side: Side) -> f64 {
     match side {

@@ -140,6 +140,14 @@ pub enum Rejection {
         /// The initial state.
         state: StateId,
     },
+    /// A reward or a bound on one is too large to be added up in doubles.
+    #[error("found a reward or a bound on one of {found:?}; expected at least 0 and less than {largest:?}")]
+    Reward {
+        /// The number.
+        found: f64,
+        /// What it must be below.
+        largest: f64,
+    },
     /// A policy cannot make sure that a path formula is satisfied.
     #[error(
         "state {state} of the product with the automaton counts as one that satisfies the path formula; it need not"

@@ -1,7 +1,7 @@
 //! The checker of expected rewards.
 
 use super::check::{ProvedBounds, prove};
-use super::earned::{Outlook, earned, exact, reading};
+use super::earned::{LARGEST, Outlook, earned, exact, reading};
 use super::one_step::{ExactRows, NO_CHOICE};
 use super::task::nature_of;
 use super::{Rejection, Side};
@@ -39,6 +39,10 @@ pub fn prove_rewards(
     resolution: Resolution,
     evidence: &Evidence,
 ) -> Result<ProvedBounds, Rejection> {
+    let earned = rewards.states.iter().chain(&rewards.choices).chain(rewards.branches.values().flatten());
+    if let Some(&found) = earned.into_iter().find(|&&reward| reward >= LARGEST) {
+        return Err(Rejection::Reward { found, largest: LARGEST });
+    }
     let mut moving = StateSet::with_capacity(model.num_states());
     let has_rows = |s: &usize| !model.choices().ranges(StateId::from_index(*s)).is_empty();
     (0..model.num_states()).filter(has_rows).for_each(|s| moving.insert(s));
@@ -187,6 +191,9 @@ impl Proof<'_> {
         values: &mut [f64],
     ) -> Result<(), Rejection> {
         self.check_order(list, what, step)?;
+        if let Some(&(_, found)) = list.iter().find(|(_, value)| !(0.0..LARGEST).contains(value)) {
+            return Err(Rejection::Reward { found, largest: LARGEST });
+        }
         list.iter().for_each(|&(state, value)| values[state.index()] = value);
         Ok(())
     }

@@ -1,8 +1,8 @@
 //! What many runs came to.
 
 use super::{End, RunOutcome, Violation};
-use crate::guarantee::Safety;
 use crate::statistics::{lower_bound, upper_bound};
+use crate::task::Safety;
 use serde::Serialize;
 
 /// How often what happened.

@@ -11,10 +11,10 @@ pub enum NativeError {
     #[error("cannot read the model: {0}")]
     Io(#[from] io::Error),
     /// The file does not start like this format.
-    #[error("this is not a dynabs model: its first bytes are not `DYNABS`")]
+    #[error("found first bytes that are not `DYNABS`, so this is not a dynabs model; expected one")]
     NotNative,
     /// The file is of another version of this format.
-    #[error("the model has format version {found}, this program reads version {expected}: write it anew")]
+    #[error("found a model of format version {found}; expected version {expected}\n  Write it anew.")]
     Version {
         /// The version of the file.
         found: u32,
@@ -22,10 +22,12 @@ pub enum NativeError {
         expected: u32,
     },
     /// The file ends early, or its length changed while it was read.
-    #[error("the model is not as long as it should be: copy it anew")]
+    #[error(
+        "found a model that is damaged: it is not as long as it says; expected all of it\n  Copy it anew."
+    )]
     Truncated,
     /// A section is not what it should be.
-    #[error("the model is damaged, in section {section}: {problem}")]
+    #[error("found a model that is damaged in section {section}: {problem}; expected it as it was written")]
     Section {
         /// The section.
         section: String,
@@ -33,7 +35,9 @@ pub enum NativeError {
         problem: String,
     },
     /// Everything looks right, but some bytes are not those that were written.
-    #[error("the model is damaged: its checksum does not match")]
+    #[error(
+        "found a model that is damaged, for its checksum is another one; expected it as it was written\n  Copy it anew."
+    )]
     Checksum,
     /// The model does not fit into memory.
     #[error(transparent)]

@@ -19,7 +19,7 @@ pub struct RowStates {
 pub enum EncodingError {
     /// States and rows together are too many.
     #[error(
-        "{states} states and {rows} rows are too many for one state per row; at most {} together",
+        "found {states} states and {rows} rows; expected at most {} together for one state per row",
         StateId::MAX
     )]
     TooLarge {
@@ -29,7 +29,7 @@ pub enum EncodingError {
         rows: usize,
     },
     /// The doubled number of steps is more than PRISM reads.
-    #[error("{property}: twice its {steps} steps are too many for PRISM; expected at most {}", i32::MAX / 2)]
+    #[error("{property}: found {steps} steps, which double; expected at most {} for PRISM", i32::MAX / 2)]
     Steps {
         /// The property.
         property: String,

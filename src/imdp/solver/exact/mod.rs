@@ -29,7 +29,6 @@ use num_bigint::BigUint;
 use num_traits::{One, Zero};
 use part::Part;
 use std::collections::BTreeMap;
-use std::sync::atomic::Ordering;
 
 /// Why there is no exact value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -58,7 +57,7 @@ impl<'a> Work<'a> {
 
     /// Takes note of work that is about to be done.
     fn spend(&mut self, work: u64) -> Result<(), Inexact> {
-        if self.options.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+        if self.options.progress.is_interrupted() {
             return Err(Inexact::Stopped);
         }
         self.left = self.left.checked_sub(work).ok_or(Inexact::TooLarge)?;

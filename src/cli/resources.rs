@@ -1,13 +1,15 @@
-//! How much memory may be used, and how much was.
+//! What a tool may use, and how much memory it did.
 
 use crate::summary::thousands_of_mib;
+use crate::{CliError, use_threads};
+use clap::Args;
 use imdp::model::{limit_memory, peak_memory};
 
 /// Parses a number of bytes such as `500M` or `16G`.
 ///
 /// # Errors
 /// What was expected.
-pub(crate) fn bytes(text: &str) -> Result<u64, String> {
+fn bytes(text: &str) -> Result<u64, String> {
     let (digits, unit) = match text.to_ascii_uppercase().strip_suffix(['K', 'M', 'G', 'T']) {
         Some(digits) => (digits.to_owned(), text[digits.len()..].to_ascii_uppercase()),
         None => (text.to_owned(), String::new()),
@@ -25,9 +27,28 @@ pub(crate) fn bytes(text: &str) -> Result<u64, String> {
         .ok_or_else(|| "expected a number of bytes such as 500M or 16G".to_owned())
 }
 
-/// Makes the tool refuse what would need more memory than given.
-pub(crate) fn use_memory(limit: Option<u64>) {
-    limit.into_iter().for_each(limit_memory);
+/// What every tool takes.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct Resources {
+    /// Use this many threads; no result depends on it.
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+
+    /// Refuse what needs more memory than this, such as 500M or 16G. Another engine may use as much; it gets three quarters of
+    /// what is available otherwise.
+    #[arg(long, global = true, value_name = "LIMIT", value_parser = bytes)]
+    memory: Option<u64>,
+}
+
+impl Resources {
+    /// Lets the tool use so much from now on.
+    ///
+    /// # Errors
+    /// Those of [`use_threads`].
+    pub(crate) fn apply(&self) -> Result<(), CliError> {
+        self.memory.into_iter().for_each(limit_memory);
+        use_threads(self.threads)
+    }
 }
 
 /// The most memory used so far, for people; nothing where the system does not tell.

@@ -1,0 +1,89 @@
+//! `dynabs`: everything in one tool.
+
+use super::check;
+use super::compile::{CompileArguments, compile_or_init, write_starter};
+use crate::resources::Resources;
+use crate::{CliError, print};
+use clap::{CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
+use dynabs::model_file::json_schema;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// From a noisy control system to a controller with a proof.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "dynabs", version, after_help = AFTER_HELP)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+
+    #[command(flatten)]
+    resources: Resources,
+}
+
+#[derive(Clone, Debug, Subcommand)]
+enum Command {
+    /// Write a model file to start from.
+    Init {
+        /// The file, which must not exist.
+        file: PathBuf,
+    },
+    /// Print the JSON Schema of the model file.
+    Schema,
+    /// Compile a model file into an interval MDP with guaranteed probabilities, and solve it.
+    Compile(Box<CompileArguments>),
+    #[command(flatten)]
+    Check(check::Command),
+    /// Print a script with which a shell completes this command.
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
+    /// Write the manual pages of this tool to a directory.
+    Man {
+        /// The directory, which must exist.
+        directory: PathBuf,
+    },
+}
+
+const AFTER_HELP: &str = "\
+dynabs-compile is `dynabs compile`; dynabs-check has the other subcommands.
+
+Exit codes:
+  0  done (and every property true)
+  1  a property is false, a comparison differs, a certificate is rejected,
+     or a simulation contradicts the promise
+  2  bad input or usage
+  3  undecided or interrupted
+  4  I/O, memory or internal error
+
+Examples:
+  dynabs init my.json
+  dynabs compile my.json --solve -o out/mine
+  dynabs explain out/mine
+  dynabs simulate out/mine
+  dynabs export out/mine -o mine.c";
+
+/// Runs the tool.
+///
+/// # Errors
+/// [`CliError`], which knows its exit code.
+pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
+    arguments.resources.apply()?;
+    match &arguments.command {
+        Command::Init { file } => write_starter(file, false)?,
+        Command::Schema => print(&json_schema())?,
+        Command::Compile(arguments) => return compile_or_init(arguments),
+        Command::Check(command) => return check::run_command(command),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(*shell, &mut Arguments::command(), "dynabs", &mut script);
+            print(&String::from_utf8_lossy(&script))?;
+        }
+        Command::Man { directory } => {
+            clap_mangen::generate_to(Arguments::command(), directory)
+                .map_err(|error| CliError::writing(directory, &error))?;
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
