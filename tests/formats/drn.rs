@@ -38,6 +38,20 @@ fn names_that_cannot_be_written_are_refused() {
     assert!(error.to_string().contains("action `two words`"), "{error}");
 }
 
+/// Names of variables stand in one line, between blanks: with an empty one among them the file could not be read.
+#[test]
+fn variables_without_a_name_are_refused() {
+    let mut parts = parts(&tiny::model());
+    let states = IntervalMdp::new(parts.clone()).unwrap().num_states();
+    for (name, is_fine) in [("x", true), ("", false), ("x y", false), ("x\n", false)] {
+        let mut variables = StateVariables::default();
+        variables.push(name.to_owned(), VariableValues::Int(vec![1; states]));
+        parts.variables = variables;
+        let model = IntervalMdp::new(parts.clone()).unwrap();
+        assert_eq!(DrnWriter::new(&model).is_ok(), is_fine, "{name:?}");
+    }
+}
+
 #[test]
 fn the_dialect_is_read() {
     // Windows line ends, plain numbers, quoted labels, blank lines and comments anywhere, no number of choices.

@@ -219,7 +219,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
     if arguments.solve && !arguments.prune {
         let solving = Instant::now();
         let (answer, result) = solve(&problem, &abstraction, &bars)?;
-        if !arguments.quiet && !arguments.json && is_low(&answer) {
+        if !arguments.quiet && !arguments.json && is_low(&answer) && is_quickly_explained(&abstraction) {
             let controller = Controller::new(&problem, &abstraction, &answer)?;
             explanation = Some(explain(&problem, &abstraction, &answer, &controller, &*bars));
         }
@@ -247,6 +247,14 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
         print(&explanation.to_string())?;
     }
     Ok(exit_code(&results))
+}
+
+/// Larger models are explained when that is asked for.
+const QUICKLY_EXPLAINED: usize = 1_000_000;
+
+/// Whether an explanation, which solves the model with other intervals, takes no longer than a look at the result.
+fn is_quickly_explained(abstraction: &Abstraction) -> bool {
+    abstraction.model.rows().num_entries() <= QUICKLY_EXPLAINED
 }
 
 /// Whether a value asks for an explanation: it misses its threshold, or it is below one half.

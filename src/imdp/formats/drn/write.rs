@@ -28,6 +28,12 @@ const ACTIONS: NameRule = NameRule {
     },
 };
 
+const VARIABLES: NameRule = NameRule {
+    format: "DRN",
+    expected: "a name without blanks and control characters",
+    accepts: |name| !name.is_empty() && !name.contains(|c: char| c.is_whitespace() || c.is_control()),
+};
+
 /// Writes a model in Storm's DRN format.
 #[derive(Debug)]
 pub struct DrnWriter<'a> {
@@ -70,10 +76,11 @@ impl<'a> DrnWriter<'a> {
     /// Prepares to write `model`: renders its rows and computes the exact size of the file.
     ///
     /// # Errors
-    /// [`NameError`] if a label or an action has a name that DRN cannot express.
+    /// [`NameError`] if a label, an action or a variable has a name that DRN cannot express.
     pub fn new(model: &'a IntervalMdp) -> Result<Self, NameError> {
         LABELS.check_labels(model)?;
         ACTIONS.check_actions(model)?;
+        VARIABLES.check_variables(model)?;
         let declared = model.labels().iter().filter(|(name, _)| *name != "init");
         let labels = std::iter::once(("init", model.initial())).chain(declared);
         let labels = labels.map(|(name, states)| (quoted(name), states)).collect();
