@@ -218,4 +218,13 @@ fn mistakes_are_explained() {
     let output = check(&["simulate", &everywhere]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("--from=0"), "{}", stderr(&output));
+
+    // Noise that is asked for is never passed over.
+    let scratch = TempDir::new().unwrap();
+    let inputs = compiled(&scratch, "benchmarks/robot_2d", &[]);
+    for choice in [["--noise", "samples"], ["--covariance", "[[1,0],[0,1]]"]] {
+        let output = check(&["simulate", &inputs, choice[0], choice[1]]);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains("a run whose actions are inputs"), "{}", stderr(&output));
+    }
 }

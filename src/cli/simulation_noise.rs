@@ -28,6 +28,13 @@ pub(crate) struct NoiseArguments {
     samples_of: Of,
 }
 
+impl NoiseArguments {
+    /// Whether some noise was asked for.
+    pub(super) fn is_given(&self) -> bool {
+        self.noise.is_some() || self.covariance.is_some()
+    }
+}
+
 /// What a sample is the noise of.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Of {

@@ -19,12 +19,17 @@
 //! | the state space is cut into cells | [`partition`] | a [`Grid`](partition::Grid) with exact faces, labelled cells |
 //! | samples become probability intervals | [`noise`], [`statistics`] | bounds that hold together with probability `1 − β` |
 //! | cells, targets and intervals meet | [`abstraction`] | an [`IntervalMdp`](imdp::model::IntervalMdp) with shared rows, and a property |
-//! | it is written for others | [`imdp::formats`], [`run`] | PRISM's explicit files, a manifest |
+//! | it is written for others | [`imdp::formats`], [`run`] | PRISM's explicit files, DRN, UMB and others, a manifest |
+//! | what holds is said | [`guarantee`] | one claim, in words and as JSON |
 //! | it is solved | [`imdp::property`], [`imdp::solver`] | bounds on the robust value, a policy |
 //! | the result is checked again | [`imdp::verify`] | a certificate, accepted in exact arithmetic |
 //! | others are asked the same | [`imdp::engines`] | PRISM's and Storm's values of every state, and where they differ |
 //! | the policy is refined | [`controller`] | a feedback [`Controller`](controller::Controller), its closed loop, C code |
+//! | it is low, and why | [`explain`] | reasons, and what to change |
 //! | it is shown | [`report`] | one HTML page, SVG |
+//!
+//! For any other system actions are inputs: an [`InputProblem`](problem::InputProblem), abstracted by
+//! [`abstraction::inputs`] on the lattice of [`landing`]; tasks with a memory are [`task`]'s.
 //!
 //! What makes it fast: an action steers to a target point, so its distribution over cells does not depend
 //! on the cell it is taken in. An interval MDP with tens of millions of transitions has a few thousand

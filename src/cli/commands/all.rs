@@ -47,7 +47,7 @@ enum Command {
 }
 
 const AFTER_HELP: &str = "\
-dynabs-compile is `dynabs compile`; dynabs-check has the other subcommands.
+dynabs-compile is `dynabs compile`; dynabs-check has the subcommands that work on its output.
 
 Exit codes:
   0  done (and every property true)

@@ -36,9 +36,9 @@ pub(super) enum Command {
     Controller(ControllerArguments),
     /// Simulate the closed loop of a compiled model and compare with what is promised.
     Simulate(SimulateArguments),
-    /// Say why the bound of a compiled model is low, and what to change.
+    /// Say why the bound of a compiled model is low, and what to change; for actions that are targets.
     Explain(ExplainArguments),
-    /// Run the closed loop with fresh samples, each once, and say what that proves.
+    /// Run the closed loop with fresh samples, each once, and say what that proves; for actions that are targets.
     Validate(ValidateArguments),
     /// Check a certificate of `solve --certificate` in exact arithmetic; exit code 1 if it is rejected.
     Verify(VerifyArguments),

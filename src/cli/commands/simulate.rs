@@ -105,7 +105,16 @@ pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, CliError> {
         }
         Controlled::Inputs(solved, _) => {
             let (problem, parameters) = (&solved.run.problem, arguments.parameters.into());
-            let said = SaidOfNoise { name: "the model's distributions".to_owned(), notes: vec![] };
+            if arguments.noise.is_given() {
+                return Err(CliError::Input(
+                    "--noise: found a run whose actions are inputs; expected no choice of noise, for its own is drawn".into(),
+                ));
+            }
+            let name = match problem.noise().samples() {
+                Some(_) => "the model's samples, drawn with replacement",
+                None => "the model's distributions",
+            };
+            let said = SaidOfNoise { name: name.to_owned(), notes: vec![] };
             (Simulation::of_inputs(problem, controller, parameters, arguments.most_steps), said)
         }
     };

@@ -1,4 +1,4 @@
-//! Convex sets of inputs: polytopes in half-space form.
+//! Convex sets of inputs and states: polytopes in half-space form.
 
 mod linear_program;
 mod polytope;

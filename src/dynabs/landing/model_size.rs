@@ -39,7 +39,9 @@ impl Question<'_> {
         }
         for noise in self.landing.moves() {
             let places = noise.from.iter().fold(1u64, |a, span| a.saturating_mul(span.len as u64));
-            let boxes: u64 = noise.taps.iter().map(|tap| 1 + tap.size.iter().product::<u32>() as u64).sum();
+            let of_tap =
+                |size: &[u32]| size.iter().fold(1u64, |a, &b| a.saturating_mul(b.into())).saturating_add(1);
+            let boxes = noise.taps.iter().fold(0u64, |sum, tap| sum.saturating_add(of_tap(&tap.size)));
             entries = entries.saturating_add(places.saturating_mul(boxes));
         }
         // From images to sub-cells.

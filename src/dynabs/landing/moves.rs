@@ -181,7 +181,8 @@ fn over_boxes<S: Side>(values: &[f64], spans: &[Span], size: &[u32]) -> Vec<f64>
     for (span, &size) in spans.iter().zip(size) {
         stride /= span.len;
         let source = values.clone();
-        let last = if span.periodic { (size as usize).min(span.len) } else { size as usize };
+        // Farther is round again, or beyond the end, where all places are the last one.
+        let last = (size as usize).min(span.len);
         for shift in 1..last {
             values.par_chunks_mut(stride).enumerate().for_each(|(row, out)| {
                 let place = row % span.len;

@@ -1,4 +1,4 @@
-//! The model file: a [`Problem`](crate::problem::Problem) as JSON, every error with the place it is about.
+//! The model file: a [`Problem`](crate::problem::Problem) or an [`InputProblem`](crate::problem::InputProblem) as JSON, every error with the place it is about.
 
 mod document;
 mod dynamics;

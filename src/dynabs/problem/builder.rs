@@ -6,7 +6,7 @@ use super::problem::Problem;
 use super::values::vector;
 use super::{
     Dynamics, GroupSteps, InputSet, LowerLayer, NoiseSource, Partition, Probabilities, TargetChoice, Task,
-    dynamics, lower_layer, regions, task,
+    checked_task, dynamics, lower_layer, regions,
 };
 use crate::partition::Grid;
 use crate::system::group;
@@ -116,7 +116,7 @@ impl ProblemBuilder {
         let grid = given(self.partition, "partition")?.grid("/partition", n)?;
         let actions = regions::actions("/targets", &self.targets, n)?;
         let wanted = given(self.task, "task")?;
-        let mut task = task::CheckedTask::new(&wanted, &grid, group_steps)?;
+        let mut task = checked_task::CheckedTask::new(&wanted, &grid, group_steps)?;
         let initial = self.initial_state.map(|state| initial(state, &grid)).transpose()?;
         let noise = given(self.noise, "noise")?;
         let setting = Setting {
@@ -134,16 +134,17 @@ impl ProblemBuilder {
         if let Some(chosen) = Setting::chosen(&trials).filter(|&chosen| chosen > group_steps) {
             group_steps = chosen;
             dynamics::require_short_numbers(&step_system, group_steps)?;
-            task = task::CheckedTask::new(&wanted, &grid, group_steps)?;
+            task = checked_task::CheckedTask::new(&wanted, &grid, group_steps)?;
         }
-        task::require_steerable(&wanted, group_steps, &self.probabilities)?;
+        checked_task::require_steerable(&wanted, group_steps, &self.probabilities)?;
         let system = group(&step_system, group_steps);
         let input = step_input.power(group_steps);
         let stabilizer =
             self.lower_layer.map(|layer| lower_layer::stabilizer(&layer, &system, &input, &grid));
         let stabilizer = stabilizer.transpose()?;
         let noise = noise.obtain(&step_system, group_steps)?;
-        let safety = task::safety(wanted.check, group_steps, &noise.of_one_step, &self.probabilities)?;
+        let safety =
+            checked_task::safety(wanted.check, group_steps, &noise.of_one_step, &self.probabilities)?;
         let mut warnings = task.warnings;
         if let Some(fewest) = trials.first().filter(|fewest| fewest.steps < group_steps) {
             warnings.push(Warning::Grouped { steps: group_steps, fewest: fewest.clone() });

@@ -26,6 +26,18 @@ pub struct Cost {
     discount: Option<f64>,
 }
 
+/// Costs come with the least that they can be, under a name of its own, which no other cost may have.
+pub(super) fn require_apart(costs: &[Cost]) -> Result<(), Diagnostic> {
+    let least = |other: &Cost| format!("{}_least", other.name);
+    match costs.iter().find(|cost| costs.iter().any(|other| cost.name == least(other))) {
+        None => Ok(()),
+        Some(cost) => {
+            let found = "the name under which the model has the least of another cost";
+            Err(Diagnostic::at(format!("/costs/{}", cost.name), found, "another name"))
+        }
+    }
+}
+
 impl CostParts {
     /// Checks the parts; `place` is the field's in a model file.
     ///

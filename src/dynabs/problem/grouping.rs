@@ -70,13 +70,14 @@ impl Setting<'_> {
         trials
     }
 
-    /// The number of steps to take of these: the first that works with room to move, or else the first that works, or else the fewest.
+    /// The number of steps to take of these: the fewest if they work, or else the first that works with room to move, or
+    /// else the first that works, or else the fewest.
     pub(super) fn chosen(trials: &[GroupingTrial]) -> Option<usize> {
-        let enough = trials.last().filter(|trial| trial.works());
-        enough
-            .or_else(|| trials.iter().find(|trial| trial.works()))
-            .or(trials.first())
-            .map(|trial| trial.steps)
+        let fewest = trials.first()?;
+        let roomy = trials.iter().find(|trial| trial.works() && trial.share <= ROOMY);
+        let working = || trials.iter().find(|trial| trial.works());
+        let chosen = if fewest.works() { Some(fewest) } else { roomy.or_else(working) };
+        Some(chosen.unwrap_or(fewest).steps)
     }
 
     fn trial(&self, steps: usize) -> Option<GroupingTrial> {
@@ -158,7 +159,9 @@ impl RoughLaw {
         let constant = &middle - &target * &drift;
         let taken = |row: &[f64]| row.iter().zip(&cell).map(|(gain, half)| gain.abs() * half).sum::<f64>();
         let row_of = |matrix: &DMatrix<f64>, i: usize| matrix.row(i).iter().copied().collect::<Vec<f64>>();
-        let shares = (0..p * steps).map(|i| taken(&row_of(&state, i)) / half[i]).collect();
+        // An input that is fixed is not used by the law either.
+        let share = |i| if half[i] > 0.0 { taken(&row_of(&state, i)) / half[i] } else { 0.0 };
+        let shares = (0..p * steps).map(share).collect();
         let inputs = setting.input.power(steps);
         let normals = inputs.normals().to_f64();
         let of_state = &normals * &state;
@@ -262,4 +265,31 @@ fn around(grid: &Grid, x: &DVector<f64>) -> Vec<CellId> {
         found = found.iter().flat_map(longer).collect();
     }
     found.iter().map(|coordinates| grid.cell(coordinates)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn trials(shares: &[f64]) -> Vec<GroupingTrial> {
+        let trial = |(i, &share): (usize, &f64)| GroupingTrial {
+            steps: i + 2,
+            input: 0,
+            share,
+            leaves_start: None,
+            meets_goal: Some(share <= 1.0),
+        };
+        shares.iter().enumerate().map(trial).collect()
+    }
+
+    #[test]
+    fn no_more_steps_are_grouped_than_help() {
+        let chosen = |shares: &[f64]| Setting::chosen(&trials(shares));
+        assert_eq!(chosen(&[0.9]), Some(2));
+        assert_eq!(chosen(&[3.0, 0.9, 0.4]), Some(4));
+        // Nothing has room: the first that works at all, not the last.
+        assert_eq!(chosen(&[3.0, 0.9, 0.8, 0.7]), Some(3));
+        assert_eq!(chosen(&[3.0, 2.0]), Some(2));
+        assert_eq!(chosen(&[]), None);
+    }
 }

@@ -1,11 +1,12 @@
 //! A control problem whose actions are inputs.
 
 use super::builder::{InitialState, given, initial};
-use super::cost::{Cost, CostParts};
+use super::checked_task::CheckedTask;
+use super::cost::{Cost, CostParts, require_apart};
 use super::input_noise::{InputNoise, InputNoiseParts};
 use super::problem::Objective;
 use super::regions::Partition;
-use super::task::{CheckedTask, Task};
+use super::task::Task;
 use super::values::{count, vector};
 use super::{FeedbackChoice, InputSet};
 use crate::geometry::Polytope;
@@ -111,7 +112,9 @@ impl InputProblem {
         let noise = parts.noise.noise(n)?;
         let task = CheckedTask::new(&given(parts.task, "task")?, &grid, 1)?;
         let initial = parts.initial_state.map(|state| initial(state, &grid)).transpose()?;
-        let costs = parts.costs.iter().map(|cost| cost.cost(&parts.mode)).collect::<Result<_, _>>()?;
+        let costs: Vec<Cost> =
+            parts.costs.iter().map(|cost| cost.cost(&parts.mode)).collect::<Result<_, _>>()?;
+        require_apart(&costs)?;
         let mut warnings = task.warnings;
         warnings.extend(noise.samples().iter().flat_map(|samples| samples.noise.warnings.iter().cloned()));
         if inputs.len() < given_inputs {

@@ -27,6 +27,7 @@
 
 mod automaton;
 mod builder;
+mod checked_task;
 mod cost;
 mod distribution;
 mod dynamics;

@@ -11,6 +11,8 @@ use super::section::section;
 use super::view::View;
 use super::words::Promise;
 use super::{formulas, input_formulas, tables, words};
+use crate::controller::Controller;
+use crate::model_file::Document;
 use crate::rendered::ended;
 use crate::run::Manifest;
 use askama::Template;
@@ -59,16 +61,24 @@ struct Page {
     script: String,
 }
 
+/// Where everything on a page comes from that is said of both kinds of actions.
+struct Sources<'a> {
+    document: &'a Document,
+    manifest: &'a Manifest,
+    controller: &'a Controller,
+    cross_checks: Option<&'a CrossCheckFile>,
+    /// Whether the probability asked for is promised, where that is decided.
+    satisfied: Option<bool>,
+}
+
 /// What is only said of one kind of actions.
-struct Specifics<'a> {
-    description: &'a str,
-    warnings: String,
-    guarantee: String,
+struct Specifics {
     leads: &'static str,
+    /// Whether there are upper bounds too.
+    has_upper: bool,
     embedded: Embedded,
     model: String,
     sizes: String,
-    cross_checks: Option<&'a CrossCheckFile>,
     method: &'static str,
 }
 
@@ -86,27 +96,24 @@ Distributions</cite>, European Control Conference 2024.";
 /// # Errors
 /// [`ReportError`] if the embedded template is broken.
 pub fn page(material: &Material<'_>) -> Result<String, ReportError> {
-    let (run, scene) = (material.run, &material.scene);
+    let Material { run, controller, options, scene, .. } = material;
     let view = View::first(scene);
-    let promise = Promise {
-        guarantee: material.controller.guarantee(),
-        sentences: material.controller.promise(),
-        bound: material.controller.promised().bound,
-        threshold: scene.threshold.map(|threshold| (threshold, material.answer.satisfied())),
-        has_upper: false,
+    let sources = Sources {
+        document: &run.document,
+        manifest: &run.manifest,
+        controller,
+        cross_checks: options.cross_checks.as_ref(),
+        satisfied: material.answer.satisfied(),
     };
     let specifics = Specifics {
-        description: run.document.description().unwrap_or_default(),
-        warnings: words::warnings(&run.manifest),
-        guarantee: words::guarantee(&promise),
         leads: TO_TARGETS,
+        has_upper: false,
         embedded: embed(scene, &view, || steering(material)),
         model: formulas::model(material),
         sizes: tables::sizes(material),
-        cross_checks: material.options.cross_checks.as_ref(),
         method: METHOD,
     };
-    rendered(scene, &view, &run.manifest, specifics)
+    rendered(scene, &view, &sources, specifics)
 }
 
 /// The same for a run whose actions are inputs.
@@ -114,47 +121,52 @@ pub fn page(material: &Material<'_>) -> Result<String, ReportError> {
 /// # Errors
 /// [`ReportError`] if the embedded template is broken.
 pub fn input_page(material: &InputMaterial<'_>) -> Result<String, ReportError> {
-    let (run, scene) = (material.run, &material.scene);
+    let InputMaterial { run, controller, options, scene, .. } = material;
     let view = View::first(scene);
-    let promise = Promise {
-        guarantee: material.controller.guarantee(),
-        sentences: material.controller.promise(),
-        bound: material.controller.promised().bound,
-        threshold: scene.threshold.map(|threshold| (threshold, material.satisfied)),
-        has_upper: true,
+    let sources = Sources {
+        document: &run.document,
+        manifest: &run.manifest,
+        controller,
+        cross_checks: options.cross_checks.as_ref(),
+        satisfied: material.satisfied,
     };
     let specifics = Specifics {
-        description: run.document.description().unwrap_or_default(),
-        warnings: words::warnings(&run.manifest),
-        guarantee: words::guarantee(&promise),
         leads: TO_IMAGES,
+        has_upper: true,
         embedded: embed(scene, &view, || inputs(material)),
         model: input_formulas::model(material),
         sizes: tables::input_sizes(material),
-        cross_checks: material.options.cross_checks.as_ref(),
         method: "",
     };
-    rendered(scene, &view, &run.manifest, specifics)
+    rendered(scene, &view, &sources, specifics)
 }
 
 fn rendered(
     scene: &Scene<'_>,
     view: &View,
-    manifest: &Manifest,
-    specifics: Specifics<'_>,
+    sources: &Sources<'_>,
+    specifics: Specifics,
 ) -> Result<String, ReportError> {
+    let Sources { document, manifest, controller, cross_checks, satisfied } = *sources;
+    let promise = Promise {
+        guarantee: controller.guarantee(),
+        sentences: controller.promise(),
+        bound: controller.promised().bound,
+        threshold: scene.threshold.map(|threshold| (threshold, satisfied)),
+        has_upper: specifics.has_upper,
+    };
     let left_out = match &specifics.embedded.left_out[..] {
         [] => String::new(),
         list => format!("<p>Left out of this page for its size: {}.</p>\n", escape(&list.join("; "))),
     };
     let page = Page {
         name: escape(scene.name),
-        description: escape(specifics.description),
+        description: escape(document.description().unwrap_or_default()),
         mode: escape(&manifest.mode),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         style: format!("{PLOT_STYLE}{STYLE}"),
-        guarantee: specifics.guarantee,
-        warnings: specifics.warnings,
+        guarantee: words::guarantee(&promise),
+        warnings: words::warnings(manifest),
         map: heat_map(scene, view).inline(),
         value_name: scene.value_name().to_owned(),
         leads: specifics.leads.to_owned(),
@@ -166,7 +178,7 @@ fn rendered(
         model: specifics.model,
         sizes: specifics.sizes,
         budget: tables::budget(manifest),
-        cross_checks: tables::cross_checks(specifics.cross_checks),
+        cross_checks: tables::cross_checks(cross_checks),
         provenance: tables::provenance(manifest),
         method: specifics.method.to_owned(),
         data: specifics.embedded.json,

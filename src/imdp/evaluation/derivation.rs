@@ -39,6 +39,11 @@ pub fn check_derivation(
         EvaluationError::Proof(rejection) => rejection,
         other => problem(other.to_string()),
     })?;
+    if evaluator.is_unproved {
+        return Err(problem(
+            "an automaton of a file has no proof: the file may be another by now".to_owned(),
+        ));
+    }
     let (steps, rows, left) = match &evaluator.checker {
         Some(checker) => (checker.steps, checker.rows, checker.proofs.len()),
         None => (0, 0, 0),

@@ -314,7 +314,7 @@ impl<'a> Evaluator<'a> {
             Function::Maximum => fold(state, f64::max),
             Function::Floor => interval::monotone(f64::floor, fold(state, f64::min)),
             Function::Ceiling => interval::monotone(f64::ceil, fold(state, f64::min)),
-            Function::Round => interval::monotone(|x| (x + 0.5).floor(), fold(state, f64::min)),
+            Function::Round => interval::monotone(interval::half_up, fold(state, f64::min)),
             Function::Modulo | Function::Power => (f64::NEG_INFINITY, f64::INFINITY),
         };
         let exact = |state: usize| {

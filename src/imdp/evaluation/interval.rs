@@ -43,3 +43,25 @@ fn outward(lower: f64, upper: f64) -> Interval {
 pub(super) fn monotone(function: fn(f64) -> f64, (lower, upper): Interval) -> Interval {
     (function(lower), function(upper))
 }
+
+/// The nearest integer, halves upwards; `x + 0.5` would round by itself, away from what is asked where its sum is no double.
+pub(super) fn half_up(x: f64) -> f64 {
+    let below = x.floor();
+    if x - below >= 0.5 { below + 1.0 } else { below }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::half_up;
+
+    #[test]
+    fn rounding_is_exact() {
+        let large = 4503599627370497.0;
+        for (x, expected) in
+            [(0.49999999999999994, 0.0), (0.5, 1.0), (-0.5, 0.0), (-0.51, -1.0), (large, large)]
+        {
+            assert_eq!(half_up(x), expected, "{x}");
+        }
+        assert_eq!(half_up(f64::INFINITY), f64::INFINITY);
+    }
+}

@@ -172,6 +172,7 @@ impl<'a> Iteration<'a> {
         }
         for (&s, &value) in self.sweep.states.iter().zip(&self.results) {
             let old = &mut self.upper[s.index()];
+            let value = if self.monotone { value.max(*old) } else { value };
             if value != *old {
                 changed = true;
                 *old = value;

@@ -1,7 +1,7 @@
 //! The checker of [certificates](crate::certificate).
 //!
-//! The checker shares the readers of files, the property parser and [`crate::model`] with the solver, and
-//! nothing else: it computes in exact rational arithmetic and believes nothing that a certificate says.
+//! The checker shares the readers of files, the property parser, [`crate::model`] and the exact arithmetic of one row
+//! with the solver, and nothing else: it computes in exact rational arithmetic and believes nothing that a certificate says.
 //! [`check`] accepts or says which state and step fails.
 //!
 //! # What is proved

@@ -1,0 +1,261 @@
+//! A task checked, and what it makes of the cells.
+
+use super::automaton::{automaton, named_regions};
+use super::problem::Objective;
+use super::regions::{RegionBox, region, regions, widths};
+use super::task::{Hazard, Horizon, Task, Wanted};
+use super::{Probabilities, StepNoise};
+use crate::memory::Need;
+use crate::partition::{CellId, CellKind, CellLabels, Grid, Region, first_overlap, near_misses};
+use crate::task::{self, AutomatonTask, CellTask, NamedRegion, Safety, Shape};
+use crate::{Diagnostic, Warning};
+use imdp::automaton::Dfa;
+use imdp::property::Probability;
+
+/// A task that fits the partition.
+pub(super) struct CheckedTask {
+    pub(super) objective: Objective,
+    pub(super) unsafe_: Vec<Region>,
+    pub(super) outside_is_unsafe: bool,
+    pub(super) labels: CellLabels,
+    pub(super) cell_task: CellTask,
+    /// In grouped steps.
+    pub(super) horizon: Option<u64>,
+    pub(super) threshold: Option<Probability>,
+    pub(super) warnings: Vec<Warning>,
+}
+
+impl CheckedTask {
+    /// Checks the regions, labels the cells, counts the horizon in groups of `d` steps.
+    pub(super) fn new(task: &Task, grid: &Grid, d: usize) -> Result<Self, Diagnostic> {
+        let n = grid.dimension();
+        let (mut unsafe_, mut places, mut outside_is_unsafe) = (vec![], vec![], false);
+        for (i, hazard) in task.unsafe_.iter().enumerate() {
+            match hazard {
+                Hazard::Outside => outside_is_unsafe = true,
+                Hazard::Box(sides) => {
+                    unsafe_.push(region(&format!("/task/unsafe/{i}"), sides, n)?);
+                    places.push(i);
+                }
+            }
+        }
+        Need::of_cells(grid).check().map_err(|error| Diagnostic::from(&error))?;
+        let objective = match &task.aim {
+            Wanted::Reach { goal } => Objective::Reach { goal: reach(goal, (&unsafe_, &places), grid)? },
+            Wanted::Stay { safe } => Objective::Stay { safe: stay(safe, &unsafe_, grid)? },
+            Wanted::ReachAt { goal } => {
+                let goal = reach(goal, (&unsafe_, &places), grid)?;
+                Objective::Automaton(Box::new(at_step(goal, &unsafe_, task.horizon)?))
+            }
+            over_regions => {
+                let named = named_regions(&task.regions, n)?;
+                Objective::Automaton(Box::new(automaton(over_regions, task.horizon, &named, &unsafe_)?))
+            }
+        };
+        let mut warnings = Vec::new();
+        let wanted = match &objective {
+            Objective::Reach { goal } => vec![("/task/goal".to_owned(), goal.clone())],
+            Objective::Stay { safe } => vec![("/task/safe".to_owned(), safe.clone())],
+            Objective::Automaton(task) => {
+                let regions = task.regions().iter().filter(|region| region.name != "unsafe");
+                regions.map(|region| (format!("/regions/{}", region.name), region.boxes())).collect()
+            }
+        };
+        for (list, regions) in wanted.into_iter().chain([("/task/unsafe".to_owned(), unsafe_.clone())]) {
+            let warning = |miss| Warning::NearMiss { list: list.clone(), miss };
+            warnings.extend(near_misses(grid, &regions).into_iter().map(warning));
+        }
+        let (labels, cell_task) = cell_task(&objective, &unsafe_, grid)?;
+        require_numbers(&cell_task, task.horizon)?;
+        let horizon = horizon(task.horizon, d, &mut warnings)?;
+        let threshold = task.threshold.map(threshold).transpose()?;
+        Ok(Self { objective, unsafe_, outside_is_unsafe, labels, cell_task, horizon, threshold, warnings })
+    }
+}
+
+/// That actions which steer to targets, for `d` steps at once, can be asked for a task.
+pub(super) fn require_steerable(
+    task: &Task,
+    d: usize,
+    probabilities: &Probabilities,
+) -> Result<(), Diagnostic> {
+    let inputs = "With \"actions\": \"inputs\" there are tasks of all types.";
+    match &task.aim {
+        Wanted::Reach { .. } => Ok(()),
+        Wanted::Stay { .. } if matches!(probabilities, Probabilities::Reference { .. }) => {
+            let found = "a task to stay somewhere in mode \"reference\"";
+            Err(Diagnostic::at("/task/type", found, "\"reach\" there: the published tool has no other"))
+        }
+        Wanted::Stay { safe } => {
+            let in_partition = safe.is_empty() && task.unsafe_.contains(&Hazard::Outside);
+            if d == 1 || in_partition || task.check == Some(Safety::GroupedInstants) {
+                return Ok(());
+            }
+            let found = format!("a region to stay in at the end of every {d} steps only");
+            Err(Diagnostic::at("/task/safe", found, "the whole partition, at every step").remedy(
+                "Leave \"safe\" out, list \"outside\" and what lies around the region as unsafe, or accept \"check\": \"grouped\".",
+            ))
+        }
+        _ => {
+            let found = "a task with a memory, for actions that steer to targets";
+            Err(Diagnostic::at("/task/type", found, "\"reach\" or \"stay\"").remedy(inputs))
+        }
+    }
+}
+
+/// When the unsafe region is avoided, if `check` was asked for and `d` steps are grouped.
+pub(super) fn safety(
+    check: Option<Safety>,
+    d: usize,
+    noise: &StepNoise,
+    probabilities: &Probabilities,
+) -> Result<Safety, Diagnostic> {
+    if d == 1 {
+        return Ok(Safety::EveryStep);
+    }
+    let impossible = |found: &str, expected: &str| Err(Diagnostic::at("/task/check", found, expected));
+    let is_reference = matches!(probabilities, Probabilities::Reference { .. });
+    match (check, noise) {
+        (Some(Safety::EveryStep), _) if is_reference => impossible(
+            "\"every_step\" in mode \"reference\"",
+            "\"grouped\" there: the published tool looks no closer",
+        ),
+        (Some(Safety::EveryStep), StepNoise::Unknown) => impossible(
+            "\"every_step\" with samples of \"grouped\" steps, which say nothing about those in between",
+            "samples of one \"step\", or \"grouped\"",
+        ),
+        (Some(Safety::GroupedInstants), _) | (None, StepNoise::Unknown) => Ok(Safety::GroupedInstants),
+        (None, _) if is_reference => Ok(Safety::GroupedInstants),
+        (None | Some(Safety::EveryStep), _) => Ok(Safety::EveryStep),
+    }
+}
+
+/// The goal, which must contain a cell.
+fn reach(
+    goal: &[RegionBox],
+    (unsafe_, places): (&[Region], &[usize]),
+    grid: &Grid,
+) -> Result<Vec<Region>, Diagnostic> {
+    let goal = regions("/task/goal", goal, grid.dimension())?;
+    if let Some((i, j)) = first_overlap(&goal, unsafe_) {
+        let found = format!("box {i} overlaps /task/unsafe/{}", places[j]);
+        let expected = "goal boxes that meet no unsafe box";
+        return Err(Diagnostic::at(format!("/task/goal/{i}"), found, expected)
+            .remedy("Cut the overlap out of one of the two; boxes may touch."));
+    }
+    let labels = CellLabels::new(grid, &goal, unsafe_);
+    if labels.count(CellKind::Goal) == 0 {
+        let expected = format!("at least one whole cell inside it; cells measure {}", widths(grid));
+        return Err(Diagnostic::at("/task/goal", "a goal that contains no cell of the partition", expected)
+            .remedy("Enlarge the goal, align its faces with the grid, or use more cells."));
+    }
+    Ok(goal)
+}
+
+/// The region to stay in, which must contain a cell that is not unsafe.
+fn stay(safe: &[RegionBox], unsafe_: &[Region], grid: &Grid) -> Result<Vec<Region>, Diagnostic> {
+    let safe = regions("/task/safe", safe, grid.dimension())?;
+    let labels = CellLabels::staying(grid, &safe, unsafe_);
+    if labels.count(CellKind::Ordinary) == 0 {
+        let expected = format!("at least one whole cell inside it; cells measure {}", widths(grid));
+        return Err(Diagnostic::at(
+            "/task/safe",
+            "a region that contains no safe cell of the partition",
+            expected,
+        )
+        .remedy("Enlarge the region, align its faces with the grid, or use more cells."));
+    }
+    Ok(safe)
+}
+
+/// To be in the goal after the last step.
+fn at_step(goal: Vec<Region>, unsafe_: &[Region], horizon: Horizon) -> Result<AutomatonTask, Diagnostic> {
+    let Horizon::Steps(steps) = horizon else {
+        return Err(Diagnostic::at("/task/horizon", "\"infinite\"", "the step at which to be in the goal"));
+    };
+    let boxes = |name: &str, regions: &[Region]| NamedRegion {
+        name: name.to_owned(),
+        shapes: regions.iter().cloned().map(Shape::Box).collect(),
+    };
+    // The last letter decides.
+    let dfa = Dfa::from_parts(1, 0, vec![0, 1, 0, 1], vec![false, true]);
+    let (dfa, mut regions) =
+        (if unsafe_.is_empty() { dfa } else { dfa.guarded() }, vec![boxes("goal", &goal)]);
+    if !unsafe_.is_empty() {
+        regions.push(boxes("unsafe", unsafe_));
+    }
+    Ok(AutomatonTask::new(&dfa, task::Aim::End, regions, format!("the state is in the goal at step {steps}")))
+}
+
+/// That memories in cells can be numbered, with the steps where the last one decides.
+fn require_numbers(task: &CellTask, horizon: Horizon) -> Result<(), Diagnostic> {
+    let pairs = u64::from(task.memories()).saturating_mul(task.num_cells() as u64);
+    let most = u64::from(Grid::MAX_CELLS);
+    if pairs > most {
+        let found = format!("{} memories in {} cells", task.memories(), task.num_cells());
+        return Err(Diagnostic::at("/task", found, format!("at most {most} together"))
+            .remedy("Simplify the task or use fewer cells."));
+    }
+    match (task.aim(), horizon) {
+        (task::Aim::End, Horizon::Steps(steps)) if steps.saturating_mul(pairs) > most => {
+            let expected = format!("at most {} steps, if the last one decides", most / pairs.max(1));
+            Err(Diagnostic::at("/task/horizon", steps.to_string(), expected)
+                .remedy("Use fewer cells, or a task that a prefix of the run decides."))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// What an objective makes of the cells.
+fn cell_task(
+    objective: &Objective,
+    unsafe_: &[Region],
+    grid: &Grid,
+) -> Result<(CellLabels, CellTask), Diagnostic> {
+    let (labels, best) = match objective {
+        Objective::Reach { goal } => {
+            (CellLabels::new(grid, goal, unsafe_), CellLabels::at_best(grid, goal, unsafe_))
+        }
+        Objective::Stay { safe } => {
+            (CellLabels::staying(grid, safe, unsafe_), CellLabels::staying_at_best(grid, safe, unsafe_))
+        }
+        Objective::Automaton(task) => {
+            let cells = CellTask::of_automaton(task, grid);
+            if task.aim() == task::Aim::Reach && !cells.can_be_done() {
+                let found = format!("a task that no run of cells fulfils: {}", task.statement());
+                let expected = "regions that contain whole cells, in an order in which they can be visited";
+                return Err(Diagnostic::at("/task", found, expected)
+                    .remedy("Enlarge the regions, align their faces with the grid, or use more cells."));
+            }
+            let kinds = (0..grid.num_cells()).map(|cell| cells.kind(CellId(cell))).collect();
+            return Ok((CellLabels::from_kinds(kinds), cells));
+        }
+    };
+    let task = CellTask::of_kinds(objective.aim(), labels.kinds(), best.kinds());
+    Ok((labels, task))
+}
+
+fn horizon(horizon: Horizon, d: usize, warnings: &mut Vec<Warning>) -> Result<Option<u64>, Diagnostic> {
+    let Horizon::Steps(steps) = horizon else { return Ok(None) };
+    let (grouped, rest) = (steps / d as u64, steps % d as u64);
+    if grouped == 0 {
+        let expected = format!("at least {d}, the number of steps that are grouped into one");
+        return Err(Diagnostic::at("/task/horizon", steps.to_string(), expected));
+    }
+    // A property counts steps as PRISM does.
+    if i32::try_from(grouped).is_err() {
+        let most = i32::MAX as u64 * d as u64;
+        let expected =
+            format!("at most {most}, which is as many steps as a property can have, or \"infinite\"");
+        return Err(Diagnostic::at("/task/horizon", steps.to_string(), expected));
+    }
+    if rest > 0 {
+        warnings.push(Warning::CutHorizon { steps, used: grouped * d as u64, group_steps: d });
+    }
+    Ok(Some(grouped))
+}
+
+fn threshold(threshold: f64) -> Result<Probability, Diagnostic> {
+    Probability::from_f64(threshold)
+        .map_err(|_| Diagnostic::at("/task/threshold", threshold.to_string(), "a probability in [0, 1]"))
+}
