@@ -1,10 +1,11 @@
 //! From the fields of a model file to the parts of a problem whose actions are inputs.
 
 use super::fields::{
-    CostSpec, FeedbackSpec, IndependentSpec, LqrSpec, ModelFile, NoiseSpec, ProbabilitiesSpec, SetSpec,
-    TargetsSpec,
+    CostSpec, FeedbackSpec, IndependentSpec, LqrSpec, ModelFile, NoiseSpec, ProbabilitiesSpec, TargetsSpec,
 };
-use super::parts::{self, given, input_set, partition, probabilities};
+use super::given::given;
+use super::parts::{self, input_set, partition, probabilities};
+use super::set_fields::SetSpec;
 use super::task_parts::task;
 use crate::Diagnostic;
 use crate::problem::{
