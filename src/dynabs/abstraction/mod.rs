@@ -18,6 +18,7 @@ mod error;
 mod footprint;
 mod hazards;
 pub mod inputs;
+mod known;
 mod outcomes;
 mod pac;
 mod placement;
