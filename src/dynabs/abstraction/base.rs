@@ -4,7 +4,8 @@ use super::AbstractionError;
 use super::action_counts::TargetPlacements;
 use super::enabling::Enabling;
 use super::hazards::Hazards;
-use super::pac::Prepared;
+use super::pac::{Prepared, TaskEnds};
+use super::states::StateSpace;
 use super::steering::Steering;
 use super::windows::Windows;
 use crate::Warning;
@@ -44,6 +45,7 @@ impl Intervals {
 impl<'a> Base<'a> {
     pub(super) fn new(
         problem: &Problem,
+        states: &StateSpace,
         steering: &'a Steering,
         progress: &dyn Progress,
     ) -> Result<Self, AbstractionError> {
@@ -55,7 +57,9 @@ impl<'a> Base<'a> {
         let intervals = match problem.probabilities() {
             Probabilities::Pac { beta, sweep, discard } => {
                 let statement = (beta, *sweep, *discard as usize);
-                let prepared = Prepared::new(problem, statement, targets, &placements, hazards.as_ref())?;
+                let ends = TaskEnds::new(problem, states, targets);
+                let (actions, hazards) = ((targets, ends), hazards.as_ref());
+                let prepared = Prepared::new(problem, statement, actions, &placements, hazards)?;
                 Intervals::Pac(Box::new(prepared))
             }
             Probabilities::Reference { beta_per_interval } => Intervals::Reference(*beta_per_interval),

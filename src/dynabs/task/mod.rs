@@ -12,7 +12,7 @@ mod region;
 mod safety;
 
 pub use automaton::AutomatonTask;
-pub use cells::{CellTask, Letters, Memory, Standing};
+pub use cells::{CellTask, Letters, Memory, Standing, Straddling};
 pub use imdp::automaton::Aim;
 pub use labels::{Label, Letter};
 pub use region::{HalfSpace, LetterLookup, NamedRegion, Shape};
