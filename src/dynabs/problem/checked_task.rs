@@ -1,9 +1,9 @@
 //! A task checked, and what it makes of the cells.
 
-use super::automaton::{Logic, automaton, named_regions};
+use super::automaton::{automaton, named_regions};
 use super::problem::Objective;
 use super::regions::{RegionBox, region, regions, widths};
-use super::task::{Hazard, Horizon, Task, Wanted};
+use super::task::{Hazard, Horizon, Logic, Task, Wanted};
 use super::{Probabilities, StepNoise};
 use crate::memory::Need;
 use crate::partition::{CellId, CellKind, CellLabels, Grid, Region, first_overlap, near_misses};
