@@ -199,6 +199,11 @@ impl Abstraction {
         self.states.arrival(problem.worst_task(), before, cell)
     }
 
+    /// The actions that are enabled in a cell, whatever the memory, as rows with one of them.
+    pub fn ranges(&self, cell: CellId) -> &[RowRange] {
+        self.states.first(cell).map_or(&[], |state| self.model.choices().ranges(state))
+    }
+
     /// The memory and the cell of a state, or `None` for one that stands for several.
     pub fn pair(&self, state: StateId) -> Option<(Memory, CellId)> {
         self.states.pair(state)

@@ -87,6 +87,12 @@ impl StateSpace {
         Some(StateId::from_index(self.heads as usize + from + own))
     }
 
+    /// The state of a cell with the first of its memories, if it has any.
+    pub(super) fn first(&self, cell: CellId) -> Option<StateId> {
+        let (from, to) = (self.starts[cell.index()], self.starts[cell.index() + 1]);
+        (from < to).then(|| StateId(self.heads + from))
+    }
+
     /// The state on arrival in a cell, with a memory before or at the start.
     pub(super) fn arrival(&self, task: &CellTask, before: Option<Memory>, cell: CellId) -> StateId {
         match task.standings(before, cell.index()) {
