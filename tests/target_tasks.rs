@@ -101,6 +101,22 @@ fn runs_keep_what_is_promised() {
     assert!(open > 12, "{open} of the bounds say something");
 }
 
+/// Known noise instead of samples: the same models with tighter rows.
+#[test]
+fn known_noise_promises_more() {
+    let mut known = model(&sequence(9));
+    known["actions"] = json!("targets");
+    known["noise"] =
+        json!({"components": [{"gaussian": {"deviation": 0.1}}, {"gaussian": {"deviation": 0.1}}]});
+    let Loop { problem, abstraction, answer, controller } = Loop::new(stated(&known).unwrap());
+    let sampled = solved(&sequence(9)).answer.lower;
+    assert!(answer.lower > sampled && sampled > 0.1, "{} {sampled}", answer.lower);
+    assert_eq!(abstraction.model.rows().len(), 2 * abstraction.targets.len());
+    let simulation = Simulation::new(&problem, &controller, Noise::of(problem.noise()), 1000);
+    let seen = simulation.tally(&[-2.0, 2.0], 1, 2000, &()).satisfaction(Safety::EveryStep, 1e-6);
+    assert!(seen.upper >= answer.lower, "{} {seen:?}", answer.lower);
+}
+
 /// Equal tasks have equal values, however they are written.
 #[test]
 fn ways_of_saying_a_task_agree() {

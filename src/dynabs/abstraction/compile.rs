@@ -6,11 +6,11 @@ use super::pac::{PacRows, Preference};
 use super::states::{FAILED, REACHED, StateSpace, labels};
 use super::steering::Steering;
 use super::targets::Targets;
-use super::{AbstractionError, Footprint, reference};
+use super::{AbstractionError, Footprint, known, reference};
 use crate::Warning;
 use crate::guarantee::{Event, Evidence, Guarantee};
 use crate::partition::{CellId, CellKind, Grid};
-use crate::problem::{Probabilities, Problem};
+use crate::problem::{Knowledge, Problem};
 use crate::system::FeedbackLaw;
 use crate::task::{Aim, Memory};
 use imdp::model::{
@@ -87,8 +87,8 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
     let blocked = states.select(|state| is_blocked(problem, &states, &choices, state));
     clock.lap("choices");
 
-    let is_pac = matches!(intervals, Intervals::Pac(_));
-    let (reached, failed) = outcome_states(problem, &states, &blocked, is_pac);
+    let is_published = matches!(intervals, Intervals::Reference(..));
+    let (reached, failed) = outcome_states(problem, &states, &blocked, is_published);
     let property = task_property(problem);
     let model_of = |rows: RowSet| -> Result<IntervalMdp, ImdpError> {
         IntervalMdp::new(Parts {
@@ -103,13 +103,27 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
     };
     let contradiction = intervals.contradiction();
     let (rows, evidence) = match intervals {
-        Intervals::Reference(beta_per_interval) => {
-            let rows = reference::build(problem, beta_per_interval, targets, placements, &states, progress)?;
+        Intervals::Reference(noise, beta_per_interval) => {
+            let rows = reference::build(
+                (problem, noise),
+                beta_per_interval,
+                targets,
+                placements,
+                &states,
+                progress,
+            )?;
             clock.lap("rows");
             (rows, Evidence::Published { beta_per_interval })
         }
-        Intervals::Pac(prepared) => {
-            let pac = PacRows::new(problem, *prepared, &enabling, placements, &states)?;
+        Intervals::Known(components) => {
+            let tolerance = steering.law.steering_error(&steering.extent);
+            let (rows, unlisted) =
+                known::build(problem, components, (&enabling, &tolerance), &states, progress)?;
+            clock.lap("rows");
+            (rows, Evidence::Known { unlisted, both_sides: false })
+        }
+        Intervals::Pac(noise, prepared) => {
+            let pac = PacRows::new((problem, noise), *prepared, &enabling, placements, &states)?;
             let rows = pac.rows(Preference::LeastFailing, "rows", progress);
             clock.lap("rows");
             let values = scout(&model_of(rows)?, &property)?;
@@ -222,9 +236,9 @@ impl Abstraction {
 }
 
 fn state_space(problem: &Problem) -> StateSpace {
-    match problem.probabilities() {
-        Probabilities::Pac { .. } => StateSpace::of_task(problem.worst_task()),
-        Probabilities::Reference { .. } => StateSpace::complete(problem.grid()),
+    match problem.knowledge() {
+        Knowledge::Samples { .. } | Knowledge::Distribution(_) => StateSpace::of_task(problem.worst_task()),
+        Knowledge::Published { .. } => StateSpace::complete(problem.grid()),
     }
 }
 
@@ -267,7 +281,7 @@ fn outcome_states(
     problem: &Problem,
     states: &StateSpace,
     blocked: &StateSet,
-    is_pac: bool,
+    is_published: bool,
 ) -> (StateSet, StateSet) {
     let of_kind = |kind, heads: &[StateId]| {
         states.select(|state| match states.cell(state) {
@@ -275,13 +289,13 @@ fn outcome_states(
             Some(cell) => problem.labels().kind(cell) == kind,
         })
     };
-    if is_pac {
+    if is_published {
+        (of_kind(CellKind::Goal, &[StateId(2)]), of_kind(CellKind::Unsafe, &[StateId(0), StateId(1)]))
+    } else {
         // A run that starts in a cell in which nothing is enabled is over.
         let mut failed = blocked.clone();
         failed.insert(FAILED.index());
         (states.select(|state| state == REACHED && states.heads() > 1), failed)
-    } else {
-        (of_kind(CellKind::Goal, &[StateId(2)]), of_kind(CellKind::Unsafe, &[StateId(0), StateId(1)]))
     }
 }
 

@@ -4,6 +4,7 @@
 //! ones, and these are the same sets. All of it is known from the task and the geometry alone.
 
 use super::super::enabling::Enabling;
+use super::super::grounds::grounds;
 use super::super::states::{FAILED, StateSpace};
 use super::super::stencil::{BoxCount, Ground};
 use super::super::targets::Targets;
@@ -111,17 +112,7 @@ impl MemoryGrounds {
         states: &StateSpace,
         shared: Option<&Targets>,
     ) -> Self {
-        let task = problem.worst_task();
-        let ground = |&memory| {
-            Ground::new(problem.grid(), shared, states.heads(), |cell| {
-                match states.arrival(task, Some(memory), cell) {
-                    // A run that comes to a cell without any action is over.
-                    state if states.pair(state).is_some() && enabling.is_idle(cell) => FAILED,
-                    state => state,
-                }
-            })
-        };
-        let grounds: Arc<[Ground]> = states.memories().iter().map(ground).collect();
+        let grounds = grounds(problem, enabling, states, shared);
         let first: Vec<usize> = ends.ways.iter().map(|&(first, _)| first).collect();
         let is_goal = |ground: &Ground, state: StateId| state != FAILED && !ground.lists(state);
         let cells = |&first: &usize| {

@@ -94,7 +94,7 @@ use super::stencil::{Ground, Hits, Special, Stencil, StencilRows};
 use super::targets::Targets;
 use super::windows::WINDOWS;
 use crate::guarantee::SampleEvidence;
-use crate::problem::Problem;
+use crate::problem::{Problem, SampledNoise};
 use bounds::{BoundTable, DIGITS, Interval};
 pub(super) use ends::TaskEnds;
 use ends::{EndCells, MemoryGrounds};
@@ -114,6 +114,8 @@ use std::sync::Arc;
 /// The rows of all actions, with any of their windows, with every memory of the task.
 pub(super) struct PacRows<'a> {
     problem: &'a Problem,
+    /// The number of samples.
+    number: u64,
     targets: &'a Targets,
     landings: ActionCounts<'a>,
     grounds: MemoryGrounds,
@@ -146,13 +148,13 @@ struct Action<'p> {
 impl<'a> PacRows<'a> {
     /// Counts.
     pub(super) fn new(
-        problem: &'a Problem,
+        (problem, noise): (&'a Problem, &'a SampledNoise),
         prepared: Prepared,
         enabling: &'a Enabling,
         placements: TargetPlacements<'a>,
         states: &StateSpace,
     ) -> Result<Self, AbstractionError> {
-        let (grid, samples) = (problem.grid(), &problem.noise().samples);
+        let (grid, samples) = (problem.grid(), &noise.samples);
         let Enabling { targets, rooms, .. } = enabling;
         let levels = &prepared.levels;
         let inside_only = levels.lower_bounds() == LowerBounds::InsideWindows;
@@ -174,7 +176,7 @@ impl<'a> PacRows<'a> {
         let of_lost = EventLevels { lower: [0.0; WINDOWS], upper: levels.lost };
         let lost = BoundTable::new(lost_events, &size, |()| of_lost);
         let shared = landings.shared().map(|landing| intervals(landing, &vec![0; grid.dimension()], &cells));
-        let between = &problem.noise().between;
+        let between = &noise.between;
         let in_room = |&room| {
             RoomBounds::new(room, &prepared, &landings, between, shared.as_deref().unwrap_or_default())
         };
@@ -190,6 +192,7 @@ impl<'a> PacRows<'a> {
             in_rooms,
             rooms,
             problem,
+            number: samples.len() as u64,
             targets,
             landings,
             grounds,
@@ -242,7 +245,7 @@ impl<'a> PacRows<'a> {
     pub(super) fn evidence(&self) -> SampleEvidence {
         let prepared = &self.prepared;
         SampleEvidence {
-            number: self.problem.noise().samples.len() as u64,
+            number: self.number,
             beta: prepared.beta,
             sweep: prepared.sweep,
             budget: prepared.budget.allocations().to_vec(),

@@ -59,6 +59,16 @@ impl Stencil {
         self.lower[position + 1]
     }
 
+    /// The upper bound at a position in the runs.
+    pub(super) fn upper(&self, position: usize) -> f64 {
+        self.upper[position + 1]
+    }
+
+    /// The interval that the first special state mostly has.
+    pub(super) fn usual(&self) -> (f64, f64) {
+        (self.lower[0], self.upper[0])
+    }
+
     /// The row at `origin`.
     pub(super) fn row<'a>(
         &'a self,
@@ -94,7 +104,7 @@ impl Stencil {
     /// Whether a row with so many entries lists all cells, with the usual interval before them.
     fn is_whole(&self, entries: usize, special: Special) -> bool {
         let Special { first, reached } = special;
-        reached.is_none() && entries == self.lower.len() && first == (self.lower[0], self.upper[0])
+        reached.is_none() && entries == self.lower.len() && first == self.usual()
     }
 
     /// The same for a row of which it is known that it lists all cells of the stencil, and has the usual interval before them.
