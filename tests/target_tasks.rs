@@ -88,7 +88,7 @@ fn runs_keep_what_is_promised() {
         let coverage = abstraction.guarantee.coverage(&abstraction.property, &abstraction.model);
         assert_eq!(coverage.unwrap(), Coverage::Lower, "{task}");
         assert_eq!(controller.promised().bound, answer.lower);
-        let simulation = Simulation::new(&problem, &controller, Noise::of(problem.noise()), 1000);
+        let simulation = Simulation::new(&problem, &controller, Noise::of_plant(problem.noise()), 1000);
         for start in [[-2.0, 2.0], [1.3, 0.7], [-2.2, 0.1]] {
             let tally = simulation.tally(&start, 1, 2000, &());
             let seen = tally.satisfaction(Safety::EveryStep, 1e-6);
@@ -104,15 +104,15 @@ fn runs_keep_what_is_promised() {
 /// Known noise instead of samples: the same models with tighter rows.
 #[test]
 fn known_noise_promises_more() {
-    let mut known = model(&sequence(9));
+    let mut known = model(&sequence(14));
     known["actions"] = json!("targets");
     known["noise"] =
         json!({"components": [{"gaussian": {"deviation": 0.1}}, {"gaussian": {"deviation": 0.1}}]});
     let Loop { problem, abstraction, answer, controller } = Loop::new(stated(&known).unwrap());
-    let sampled = solved(&sequence(9)).answer.lower;
+    let sampled = solved(&sequence(14)).answer.lower;
     assert!(answer.lower > sampled && sampled > 0.1, "{} {sampled}", answer.lower);
     assert_eq!(abstraction.model.rows().len(), 2 * abstraction.targets.len());
-    let simulation = Simulation::new(&problem, &controller, Noise::of(problem.noise()), 1000);
+    let simulation = Simulation::new(&problem, &controller, Noise::of_plant(problem.noise()), 1000);
     let seen = simulation.tally(&[-2.0, 2.0], 1, 2000, &()).satisfaction(Safety::EveryStep, 1e-6);
     assert!(seen.upper >= answer.lower, "{} {seen:?}", answer.lower);
 }
