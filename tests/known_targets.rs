@@ -82,14 +82,14 @@ fn rows_enclose_the_true_masses() {
                 };
                 assert!(
                     low <= mass + 1e-11 && mass <= high + unlisted + 1e-11,
-                    "{target} {successor:?}: {low} {mass} {high}"
+                    "{target:?} {successor:?}: {low} {mass} {high}"
                 );
-                assert!(high - low < 1e-8, "{target} {successor:?}: {low} {high}");
+                assert!(high - low < 1e-8, "{target:?} {successor:?}: {low} {high}");
                 listed += mass;
             }
             assert!(
                 failed >= 1.0 - listed - 1e-9 && failed <= 1.0 - listed + 1e-8,
-                "{target}: {failed} {listed}"
+                "{target:?}: {failed} {listed}"
             );
         }
     }

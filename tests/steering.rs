@@ -3,7 +3,7 @@ use dynabs::abstraction::{Targets, demands, enabled_actions};
 use dynabs::geometry::Polytope;
 use dynabs::model_file::Document;
 use dynabs::partition::{CellId, Grid};
-use dynabs::problem::{Actions, Problem};
+use dynabs::problem::{Actions, Problem, TargetId};
 use dynabs::system::{Extent, FeedbackLaw};
 use imdp::numeric::to_f64;
 use nalgebra::{DMatrix, DVector};

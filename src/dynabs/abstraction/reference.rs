@@ -57,7 +57,8 @@ pub(super) fn build(
     let of_cells = landings.distinct_counts(targets, grid);
     let of_cells = CountTable::new(of_cells.iter().map(|count| count.certain[0]), |k| intervals.of_cell(k));
     let of_outside = CountTable::new(inside.iter().map(|(samples, _)| *samples), |k| intervals.of_outside(k));
-    let special = |target: TargetId| Special { first: of_outside.get(inside[target.index()].0), reached: None };
+    let special =
+        |target: TargetId| Special { first: of_outside.get(inside[target.index()].0), reached: None };
     let Some(hits) = hits else {
         return Ok(build_rows(targets.len(), progress, |row, rows| {
             let (_, target) = targets.of_row(RowId::from_index(row));

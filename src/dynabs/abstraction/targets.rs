@@ -218,12 +218,12 @@ mod tests {
         let targets = Targets::new(&TargetPoints::Centers, &grid);
         assert_eq!(targets.len(), 6);
         let mut point = [0.0; 2];
-        targets.point(4, &mut point);
+        targets.point(TargetId(4), &mut point);
         assert_eq!(point, [0.5, 1.5]);
         let alignment = targets.alignment().unwrap();
         assert!(alignment.iter().all(|a| a.stride == 1 && a.phase == Rational::new(1.into(), 2.into())));
         let mut cell = [0; 2];
-        targets.cell(4, &mut cell);
+        targets.cell(TargetId(4), &mut cell);
         assert_eq!(cell, [1, 1]);
     }
 
@@ -235,7 +235,7 @@ mod tests {
         let points = [-0.2, -0.200_000_001, 1.0, -3.5].map(|x| exact(&[x]));
         let targets = Targets::new(&TargetPoints::List(points.to_vec()), &grid);
         let mut cell = [0];
-        for (target, expected) in [8, 7, 11, -1].into_iter().enumerate() {
+        for (target, expected) in targets.ids().zip([8, 7, 11, -1]) {
             targets.cell(target, &mut cell);
             assert_eq!(cell, [expected]);
         }
