@@ -204,7 +204,7 @@ mod tests {
         let mut memory = GrowingMemory::new("a list");
         assert_eq!(memory.make_room(0, 1000), Ok(()));
         let error = memory.make_room(1000, u64::MAX / 2).unwrap_err();
-        assert!(error.to_string().starts_with("a list: about"), "{error}");
+        assert!(error.to_string().starts_with("a list: found"), "{error}");
     }
 
     /// Directories as the kernel shows them, version by version.
