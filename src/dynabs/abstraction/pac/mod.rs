@@ -173,15 +173,19 @@ impl<'a> PacRows<'a> {
         let lost = BoundTable::new(lost_events, &size, |()| of_lost);
         let shared = landings.shared().map(|landing| intervals(landing, &vec![0; grid.dimension()], &cells));
         let between = &problem.noise().between;
-        let in_room = |&room| {
-            RoomBounds::new(room, &prepared, &landings, between, shared.as_deref().unwrap_or_default())
-        };
+        let in_room = |&room| RoomBounds::new(room, &prepared, &landings, between);
         let in_rooms: Vec<RoomBounds> = rooms.distinct.par_iter().filter_map(in_room).collect();
-        let stencils = landings.shared().zip(shared.as_deref()).map(|(landing, shared)| {
-            let of_rooms = in_rooms.iter().map(|room| (&room.intervals[..], room.leaving));
-            let all = std::iter::once((shared, 0.0)).chain(of_rooms);
-            let windows = landings.shared_windows();
-            all.flat_map(|bounds| stencils(landing, windows, &ground, bounds, &prepared.unseen)).collect()
+        let windows = landings.shared_windows();
+        let stencils = landings.shared().zip(shared).map(|(landing, shared)| {
+            let places = places(landing, windows);
+            let mut all = stencils(windows, &places, &ground, &shared, &prepared.unseen);
+            for room in &in_rooms {
+                for (window, places) in places.iter().enumerate() {
+                    let usual = usual_failed((prepared.unseen[window] + room.leaving).next_up());
+                    all.push(all[window].with_lower(usual, room.lower.clone(), places.clone()));
+                }
+            }
+            all.into()
         });
         Ok(Self {
             in_rooms,
@@ -275,7 +279,7 @@ impl<'a> PacRows<'a> {
         let (landing, windows) = self.landings.of(self.targets, target, grid, &mut vec![0; grid.dimension()]);
         let from = self.landings.target_cell(self.targets, target);
         let intervals = intervals(&landing, &from, &self.cells);
-        stencils(&landing, &windows, &self.ground, (&intervals, 0.0), &self.prepared.unseen)
+        stencils(&windows, &places(&landing, &windows), &self.ground, &intervals, &self.prepared.unseen)
     }
 
     /// How much may fail if the row at `origin` is made with a window.
@@ -323,25 +327,36 @@ impl<'a> PacRows<'a> {
     }
 }
 
-/// One stencil per window, in coordinates of the landing, with these intervals and so much noise that leaves a room.
+/// Per window, the places of its cells in the landing's table.
+fn places(landing: &CellCounts, windows: &[CellBox]) -> Vec<Arc<[u32]>> {
+    let of_window = |hull: &CellBox| {
+        let mut places = Vec::with_capacity(hull.volume());
+        hull.for_each(|cell| places.push(landing.table().position(cell) as u32));
+        places.into()
+    };
+    windows.iter().map(of_window).collect()
+}
+
+/// One stencil per window, in coordinates of the landing, with the intervals of cells at these places.
 fn stencils(
-    landing: &CellCounts,
     windows: &[CellBox],
+    places: &[Arc<[u32]>],
     ground: &Ground,
-    (intervals, leaving): (&[Interval], f64),
+    intervals: &[Interval],
     unseen: &[f64],
 ) -> Vec<Stencil> {
-    let stencil = |(window, hull): (usize, &CellBox)| {
-        let mut places = Vec::with_capacity(hull.volume());
-        hull.for_each(|cell| places.push(landing.table().position(cell)));
-        let most = if leaving > 0.0 { (unseen[window] + leaving).next_up() } else { unseen[window] };
-        let usual = (0.0, round_decimal_up(most, DIGITS).min(1.0));
-        Stencil::new(hull, ground, usual, |position| {
-            let interval = &intervals[places[position]];
+    let stencil = |((window, hull), places): ((usize, &CellBox), &Arc<[u32]>)| {
+        Stencil::new(hull, ground, usual_failed(unseen[window]), |position| {
+            let interval = &intervals[places[position] as usize];
             Some((interval.lower[window], interval.upper))
         })
     };
-    windows.iter().enumerate().map(stencil).collect()
+    windows.iter().enumerate().zip(places).map(stencil).collect()
+}
+
+/// What may fail where nothing lost is met.
+fn usual_failed(most: f64) -> (f64, f64) {
+    (0.0, round_decimal_up(most, DIGITS).min(1.0))
 }
 
 /// How many samples land in the regions of the task, per action.

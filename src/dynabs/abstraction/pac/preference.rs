@@ -43,8 +43,8 @@ impl<'a> Chooser<'a> {
             Preference::Worth(values) => first_best(windows, |window| {
                 let stencil = &stencils[window];
                 let special = rows.special(stencil, target, coordinates, window);
-                let row = stencil.row(&rows.ground, coordinates, special, entries);
-                expectation.of(row, values)
+                let length = rows.length(stencil, coordinates, special) as usize;
+                expectation.of(stencil.row(&rows.ground, coordinates, (special, length), entries), values)
             }),
         };
         let stencil = &stencils[best];
@@ -55,7 +55,8 @@ impl<'a> Chooser<'a> {
     /// The row chosen last.
     pub(super) fn row<'b>(&'b mut self, stencils: &'b [Stencil], chosen: &Chosen) -> Row<'b> {
         let RowBuffer { entries, coordinates } = &mut self.buffer;
-        stencils[chosen.stencil as usize].row(&self.rows.ground, coordinates, chosen.special, entries)
+        let of_row = (chosen.special, chosen.length as usize);
+        stencils[chosen.stencil as usize].row(&self.rows.ground, coordinates, of_row, entries)
     }
 }
 

@@ -111,11 +111,7 @@ impl ComputedRows for StencilRows {
         let special = self.specials[self.special[id.index()] as usize];
         let RowBuffer { entries, coordinates } = buffer;
         self.ground.origin(id.index(), coordinates);
-        if stencil.is_whole(self.row_len(id), special) {
-            stencil.whole_row(&self.ground, coordinates, entries)
-        } else {
-            stencil.row(&self.ground, coordinates, special, entries)
-        }
+        stencil.row(&self.ground, coordinates, (special, self.row_len(id)), entries)
     }
 
     fn most_of_successors(&self, of_states: &[f64]) -> Vec<f64> {
