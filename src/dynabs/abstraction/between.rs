@@ -16,6 +16,9 @@ use rayon::prelude::*;
 /// Cells per parallel task.
 const CELLS_PER_TASK: usize = 64;
 
+/// Tasks whose results are put together at once.
+const TASKS: usize = 512;
+
 /// Rooms are looked for among at most so many pairs of a cell and an action: beyond, the list of them would be what takes memory.
 const MOST_PAIRS: u64 = 1 << 24;
 
@@ -85,25 +88,28 @@ impl<'a> Between<'a> {
             })
             .collect();
         let of_cell = |i: usize| &enabled.ranges[starts[i]..starts[i] + enabled.ranges_per_cell[i] as usize];
-        let parts: Vec<Clear> = cells
-            .par_chunks(CELLS_PER_TASK)
-            .enumerate()
-            .map(|(task, chunk)| {
-                let mut found = Clear::default();
-                let mut probe = Probe::new(self, has_rooms);
-                for (i, &cell) in (task * CELLS_PER_TASK..).zip(chunk) {
-                    let before = found.actions.ranges.len();
-                    probe.start_in(cell);
-                    of_cell(i).iter().for_each(|range| probe.push_clear(i as u32, range, &mut found));
-                    found.actions.ranges_per_cell.push((found.actions.ranges.len() - before) as u32);
-                }
-                progress.advance(chunk.len() as u64);
-                found
-            })
-            .collect();
-        let (actions, with_room): (Vec<_>, Vec<_>) =
-            parts.into_iter().map(|part| (part.actions, part.with_room)).unzip();
-        Clear { actions: EnabledActions::concatenated(actions), with_room: with_room.concat() }
+        let of_task = |(task, chunk): (usize, &[CellId])| {
+            let mut found = Clear::default();
+            let mut probe = Probe::new(self, has_rooms);
+            for (i, &cell) in (task * CELLS_PER_TASK..).zip(chunk) {
+                let before = found.actions.ranges.len();
+                probe.start_in(cell);
+                of_cell(i).iter().for_each(|range| probe.push_clear(i as u32, range, &mut found));
+                found.actions.ranges_per_cell.push((found.actions.ranges.len() - before) as u32);
+            }
+            progress.advance(chunk.len() as u64);
+            found
+        };
+        let tasks: Vec<(usize, &[CellId])> = cells.chunks(CELLS_PER_TASK).enumerate().collect();
+        let mut all = Clear::default();
+        for tasks in tasks.chunks(TASKS) {
+            let parts: Vec<Clear> = tasks.par_iter().copied().map(of_task).collect();
+            for part in parts {
+                all.actions.append(part.actions);
+                all.with_room.extend(part.with_room);
+            }
+        }
+        all
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::base::{Base, Intervals};
 use super::enabled::EnabledActions;
+use super::enabling::Enabling;
 use super::outcomes::Outcomes;
 use super::pac::{PacRows, Preference};
 use super::states::{FAILED, REACHED, StateSpace, labels};
@@ -15,8 +16,7 @@ use crate::problem::{Probabilities, Problem};
 use crate::system::FeedbackLaw;
 use crate::task::Aim;
 use imdp::model::{
-    ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, ModelKind, Parts, RowRange, RowSet,
-    StateId, StateSet,
+    ActionNames, Choices, ImdpError, IntervalMdp, ModelKind, Parts, RowSet, StateId, StateSet,
 };
 use imdp::progress::Progress;
 use imdp::property::{PathFormula, Property, Resolution, StateFormula, Threshold, ThresholdComparison};
@@ -77,13 +77,13 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
     footprint.check()?;
     clock.lap("memory");
 
-    let Base { placements, intervals, enabling } = Base::new(problem, &steering, progress)?;
+    let Base { placements, intervals, mut enabling } = Base::new(problem, &steering, progress)?;
     let footprint = footprint.with_rooms(problem, &enabling.targets)?;
     clock.lap("enabled actions");
 
     let states = state_space(problem);
+    let choices = choices(problem, &states, std::mem::take(&mut enabling.actions));
     let targets = &enabling.targets;
-    let choices = choices(problem, &states, &enabling.actions);
     let blocked = states.select(|state| is_blocked(problem, &states, &choices, state));
     clock.lap("choices");
 
@@ -165,12 +165,12 @@ impl Abstraction {
         let steering = Steering::new(problem)?;
         let footprint = Footprint::new(problem, &steering);
         footprint.check()?;
-        let enabling = Base::new(problem, &steering, progress)?.enabling;
+        let Enabling { actions, targets, .. } = Base::new(problem, &steering, progress)?.enabling;
         let states = state_space(problem);
         let same = guarantee.event == Event::of(problem)
             && model.num_states() == states.len()
-            && model.rows().len() == enabling.targets.len()
-            && *model.choices() == choices(problem, &states, &enabling.actions);
+            && model.rows().len() == targets.len()
+            && *model.choices() == choices(problem, &states, actions);
         if !same {
             return Err(AbstractionError::Foreign);
         }
@@ -181,7 +181,7 @@ impl Abstraction {
             state_of_cell: state_of_cell(problem.grid(), &states),
             warnings: warnings(problem, blocked.count_ones(..)),
             model,
-            targets: enabling.targets,
+            targets,
             law: steering.law,
             guarantee,
             footprint,
@@ -201,28 +201,15 @@ fn state_of_cell(grid: &Grid, states: &StateSpace) -> Vec<StateId> {
     (0..grid.num_cells()).map(|cell| states.of_cell(CellId(cell))).collect()
 }
 
-fn choices(problem: &Problem, states: &StateSpace, enabled: &EnabledActions) -> Choices {
-    let mut builder = ChoicesBuilder::with_capacity(states.len());
-    (0..states.heads()).for_each(|_| builder.push_absorbing());
-    let mut counts = enabled.ranges_per_cell.iter();
-    let mut ranges = enabled.ranges.as_slice();
-    for (_, cell) in states.cells() {
-        if problem.labels().kind(cell) != CellKind::Ordinary {
-            // The published tool draws goal and unsafe cells without choices.
-            builder.finish_state();
-            continue;
-        }
-        let (own, rest): (&[RowRange], _) =
-            ranges.split_at(counts.next().copied().unwrap_or_default() as usize);
-        ranges = rest;
-        if own.is_empty() {
-            builder.push_absorbing();
-        } else {
-            own.iter().for_each(|&range| builder.push_range(range));
-            builder.finish_state();
-        }
-    }
-    builder.finish()
+fn choices(problem: &Problem, states: &StateSpace, enabled: EnabledActions) -> Choices {
+    let mut counts = enabled.ranges_per_cell.iter().copied();
+    let of_state = (0..states.len()).map(|state| match states.cell(StateId::from_index(state)) {
+        // The published tool draws goal and unsafe cells without choices.
+        Some(cell) if problem.labels().kind(cell) != CellKind::Ordinary => Some(0),
+        Some(_) => counts.next().filter(|&count| count > 0),
+        None => None,
+    });
+    Choices::of_ranges(enabled.ranges, of_state)
 }
 
 /// Whether a state is an ordinary cell with nothing enabled.

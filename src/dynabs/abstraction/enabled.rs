@@ -19,6 +19,9 @@ pub struct EnabledActions {
 /// Cells per parallel task: a few milliseconds of work in two dimensions.
 const CELLS_PER_TASK: usize = 256;
 
+/// Tasks whose results are put together at once.
+const TASKS: usize = 128;
+
 /// The actions enabled in each of `cells`.
 ///
 /// Action `a` is enabled in cell `s` iff the feedback law keeps its input in `U` (and `U′`) from every
@@ -53,41 +56,39 @@ pub(super) fn enabled_around(
     let half_widths: Vec<f64> =
         grid.axes().iter().map(|axis| 0.5 * imdp::numeric::to_f64_up(axis.width())).collect();
     let scan = Scan::new(targets, constraints);
-    let parts: Vec<EnabledActions> = cells
-        .par_chunks(CELLS_PER_TASK)
-        .map(|chunk| {
-            let mut found = EnabledActions::default();
-            let mut slack = vec![0.0; constraints.len()];
-            for &cell in chunk {
-                for (slack, constraint) in slack.iter_mut().zip(constraints) {
-                    *slack = constraint.bound;
-                    for (j, gamma) in constraint.state.iter().enumerate() {
-                        let center = centers[j][grid.coordinate(cell, j) as usize];
-                        *slack -= gamma * center + gamma.abs() * half_widths[j];
-                    }
+    let of_task = |chunk: &[CellId]| {
+        let mut found = EnabledActions::default();
+        let mut slack = vec![0.0; constraints.len()];
+        for &cell in chunk {
+            for (slack, constraint) in slack.iter_mut().zip(constraints) {
+                *slack = constraint.bound;
+                for (j, gamma) in constraint.state.iter().enumerate() {
+                    let center = centers[j][grid.coordinate(cell, j) as usize];
+                    *slack -= gamma * center + gamma.abs() * half_widths[j];
                 }
-                let before = found.ranges.len();
-                scan.run(targets, &slack, &mut found.ranges);
-                found.ranges_per_cell.push((found.ranges.len() - before) as u32);
             }
-            progress.advance(chunk.len() as u64);
-            found
-        })
-        .collect();
-    EnabledActions::concatenated(parts)
+            let before = found.ranges.len();
+            scan.run(targets, &slack, &mut found.ranges);
+            found.ranges_per_cell.push((found.ranges.len() - before) as u32);
+        }
+        progress.advance(chunk.len() as u64);
+        found
+    };
+    // Not all tasks at once: what they found stands only once in memory.
+    let mut all = EnabledActions::default();
+    for chunks in cells.chunks(CELLS_PER_TASK * TASKS) {
+        let parts: Vec<EnabledActions> = chunks.par_chunks(CELLS_PER_TASK).map(of_task).collect();
+        parts.into_iter().for_each(|part| all.append(part));
+    }
+    all.ranges.shrink_to_fit();
+    all
 }
 
 impl EnabledActions {
-    /// The actions of the cells of all `parts`, in order.
-    pub(super) fn concatenated(parts: Vec<Self>) -> Self {
-        let mut all = Self::default();
-        all.ranges.reserve_exact(parts.iter().map(|part| part.ranges.len()).sum());
-        all.ranges_per_cell.reserve_exact(parts.iter().map(|part| part.ranges_per_cell.len()).sum());
-        for part in parts {
-            all.ranges_per_cell.extend(part.ranges_per_cell);
-            all.ranges.extend(part.ranges);
-        }
-        all
+    /// Adds the actions of further cells.
+    pub(super) fn append(&mut self, part: Self) {
+        self.ranges_per_cell.extend(part.ranges_per_cell);
+        self.ranges.extend(part.ranges);
     }
 }
 

@@ -47,6 +47,9 @@ impl Rooms {
             let copy = rows.partition_point(|&other| other < (target, room));
             RowId::from_index(targets.len() + copy)
         };
+        if rows.is_empty() {
+            return (Self::default(), targets.clone(), actions);
+        }
         let mut all = EnabledActions::default();
         let (mut ranges, mut more) = (actions.ranges.iter(), with_room.iter().peekable());
         for (cell, &number) in actions.ranges_per_cell.iter().enumerate() {
@@ -54,7 +57,10 @@ impl Rooms {
             all.ranges.extend(ranges.by_ref().take(number as usize));
             while let Some(&(_, target, room)) = more.next_if(|(of, ..)| *of as usize == cell) {
                 let row = row_of(target, room);
-                all.ranges.push(RowRange { first: row, last: row });
+                match all.ranges[before..].last_mut() {
+                    Some(previous) if previous.last.next() == row => previous.last = row,
+                    _ => all.ranges.push(RowRange { first: row, last: row }),
+                }
             }
             all.ranges_per_cell.push((all.ranges.len() - before) as u32);
         }
