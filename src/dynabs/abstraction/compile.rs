@@ -4,7 +4,7 @@ use super::base::{Base, Intervals};
 use super::enabled::EnabledActions;
 use super::enabling::Enabling;
 use super::outcomes::Outcomes;
-use super::pac::{PacRows, Preference};
+use super::pac::{PacRows, Preference, Worth};
 use super::states::{FAILED, REACHED, StateSpace, labels};
 use super::steering::Steering;
 use super::targets::Targets;
@@ -113,8 +113,9 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
             let pac = PacRows::new(problem, *prepared, &enabling, placements, &states, &outcomes)?;
             let rows = pac.rows(Preference::LeastFailing, "rows", progress);
             clock.lap("rows");
-            let values = scout(&model_of(rows)?, &property)?;
-            let rows = pac.rows(Preference::Worth(&values), "choice of windows", progress);
+            let values = scout(&model_of(rows.clone())?, &property)?;
+            let worth = Worth::new(values, &rows);
+            let rows = pac.rows(Preference::Worth(&worth), "choice of windows", progress);
             clock.lap("choice of windows");
             (rows, Evidence::Samples(pac.evidence()))
         }

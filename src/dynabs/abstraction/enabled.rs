@@ -58,9 +58,9 @@ pub(super) fn enabled_around(
     let scan = Scan::new(targets, constraints);
     let of_task = |chunk: &[CellId]| {
         let mut found = EnabledActions::default();
-        let mut slack = vec![0.0; constraints.len()];
+        let mut levels = scan.levels();
         for &cell in chunk {
-            for (slack, constraint) in slack.iter_mut().zip(constraints) {
+            for (slack, constraint) in levels[0].slack.iter_mut().zip(constraints) {
                 *slack = constraint.bound;
                 for (j, gamma) in constraint.state.iter().enumerate() {
                     let center = centers[j][grid.coordinate(cell, j) as usize];
@@ -68,7 +68,7 @@ pub(super) fn enabled_around(
                 }
             }
             let before = found.ranges.len();
-            scan.run(targets, &slack, &mut found.ranges);
+            scan.run(targets, &mut levels, &mut found.ranges);
             found.ranges_per_cell.push((found.ranges.len() - before) as u32);
         }
         progress.advance(chunk.len() as u64);
@@ -99,55 +99,91 @@ struct Scan<'a> {
     least_after: Vec<Vec<f64>>,
     /// the most,
     most_after: Vec<Vec<f64>>,
+    /// the most that dimensions from `k` on can,
+    most_from: Vec<Vec<f64>>,
     /// and a bound on `|α·d|` over dimensions from `k` on.
     magnitudes: Vec<Vec<f64>>,
+    /// By how much more than nothing there must be room, in terms of what is added up, for rounding not to matter.
+    spare: f64,
+}
+
+/// What the coordinates of the dimensions before one leave to it.
+#[derive(Clone)]
+struct Level {
+    /// Per constraint, what is left of its bound.
+    slack: Vec<f64>,
+    /// The constraints that some target may still violate.
+    active: Vec<usize>,
 }
 
 impl<'a> Scan<'a> {
     fn new(targets: &Targets, constraints: &'a [SteeringConstraint]) -> Self {
         let axes = targets.axes().unwrap_or_default();
         let zero = vec![vec![0.0; constraints.len()]; axes.len()];
-        let mut scan =
-            Self { constraints, least_after: zero.clone(), most_after: zero.clone(), magnitudes: zero };
+        let mut scan = Self {
+            constraints,
+            least_after: zero.clone(),
+            most_after: zero.clone(),
+            most_from: zero.clone(),
+            magnitudes: zero,
+            spare: 16.0 * (axes.len() + 1) as f64 * f64::EPSILON,
+        };
         for k in (0..axes.len()).rev() {
             let ends = [axes[k][0], axes[k][axes[k].len() - 1]];
             for (i, constraint) in constraints.iter().enumerate() {
                 let [a, b] = ends.map(|x| constraint.target[k] * x);
                 let after = scan.magnitudes.get(k + 1).map_or(0.0, |after| after[i]);
                 scan.magnitudes[k][i] = after + a.abs().max(b.abs());
+                scan.most_from[k][i] = scan.most_after[k][i] + a.max(b);
                 if k > 0 {
                     scan.least_after[k - 1][i] = scan.least_after[k][i] + a.min(b);
-                    scan.most_after[k - 1][i] = scan.most_after[k][i] + a.max(b);
+                    scan.most_after[k - 1][i] = scan.most_from[k][i];
                 }
             }
         }
         scan
     }
 
-    fn run(&self, targets: &Targets, slack: &[f64], ranges: &mut Vec<RowRange>) {
+    /// Room for the scan of one cell after the other.
+    fn levels(&self) -> Vec<Level> {
+        vec![
+            Level { slack: vec![0.0; self.constraints.len()], active: vec![] };
+            self.least_after.len().max(1)
+        ]
+    }
+
+    /// The targets that leave room in all constraints; `levels[0].slack` is what the cell leaves.
+    fn run(&self, targets: &Targets, levels: &mut [Level], ranges: &mut Vec<RowRange>) {
+        let mut found = Found { start: ranges.len(), ranges };
         match targets.axes() {
-            Some(axes) => self.lattice(axes, 0, 0, slack, &mut Found { start: ranges.len(), ranges }),
-            None => self.list(targets, slack, &mut Found { start: ranges.len(), ranges }),
+            Some(axes) => {
+                levels[0].active.clear();
+                levels[0].active.extend(0..self.constraints.len());
+                self.lattice(axes, 0, 0, levels, &mut found);
+            }
+            None => self.list(targets, &levels[0].slack, &mut found),
         }
     }
 
-    /// Fixes the coordinate of dimension `k`; `slack` is what the earlier dimensions have left.
-    fn lattice(&self, axes: &[Vec<f64>], k: usize, base: usize, slack: &[f64], found: &mut Found<'_>) {
+    /// Looks for the coordinates of dimension `k`, then of those after it.
+    fn lattice(&self, axes: &[Vec<f64>], k: usize, base: usize, levels: &mut [Level], found: &mut Found<'_>) {
+        let Some((Level { slack, active }, deeper)) = levels.split_first_mut() else { return };
+        // Where there is room for whatever comes after, with more than rounding to spare, it need not be looked at.
+        let spare = |i: usize| self.spare * (slack[i].abs() + self.magnitudes[k][i]);
+        active.retain(|&i| {
+            let room = slack[i] - self.most_from[k][i] - spare(i);
+            room < 0.0 || room.is_nan()
+        });
         let axis = &axes[k];
         let least = |i: usize| slack[i] - self.least_after[k][i];
-        let Some((first, last)) = self.feasible(axis, k, least) else { return };
+        let Some((first, last)) = self.feasible(axis, k, active, least) else { return };
         let base = base * axis.len();
-        if k + 1 == axes.len() {
-            found.push(base + first, base + last);
-            return;
+        if deeper.is_empty() {
+            return found.push(base + first, base + last);
         }
-        // Where there is room for whatever comes after, with more than rounding to spare, it need not be looked at.
-        let spare = 16.0 * (axes.len() + 1) as f64 * f64::EPSILON;
-        let most =
-            |i: usize| slack[i] - self.most_after[k][i] - spare * (slack[i].abs() + self.magnitudes[k][i]);
-        let whole = self.feasible(axis, k, most);
+        let most = |i: usize| slack[i] - self.most_after[k][i] - spare(i);
+        let whole = self.feasible(axis, k, active, most);
         let behind: usize = axes[k + 1..].iter().map(Vec::len).product();
-        let mut rest = vec![0.0; slack.len()];
         for (i, &x) in axis.iter().enumerate().take(last + 1).skip(first) {
             if let Some((first, last)) = whole.filter(|&(first, last)| first <= i && i <= last) {
                 if i == first {
@@ -155,19 +191,27 @@ impl<'a> Scan<'a> {
                 }
                 continue;
             }
-            for ((rest, slack), constraint) in rest.iter_mut().zip(slack).zip(self.constraints) {
-                *rest = slack - constraint.target[k] * x;
+            let next = &mut deeper[0];
+            next.active.clone_from(active);
+            for &i in &*active {
+                next.slack[i] = slack[i] - self.constraints[i].target[k] * x;
             }
-            self.lattice(axes, k + 1, base + i, &rest, found);
+            self.lattice(axes, k + 1, base + i, deeper, found);
         }
     }
 
-    /// The indices along dimension `k` for which there is room in all constraints, as an inclusive range.
-    fn feasible(&self, axis: &[f64], k: usize, room: impl Fn(usize) -> f64) -> Option<(usize, usize)> {
+    /// The indices along dimension `k` for which there is room in these constraints, as an inclusive range.
+    fn feasible(
+        &self,
+        axis: &[f64],
+        k: usize,
+        constraints: &[usize],
+        room: impl Fn(usize) -> f64,
+    ) -> Option<(usize, usize)> {
         let (mut first, mut last) = (0usize, axis.len() - 1);
         let spacing = if axis.len() > 1 { (axis[last] - axis[0]) / last as f64 } else { 1.0 };
-        for (i, constraint) in self.constraints.iter().enumerate() {
-            let alpha = constraint.target[k];
+        for &i in constraints {
+            let alpha = self.constraints[i].target[k];
             let room = room(i);
             // Monotone in x even in floating point, so the feasible indices are a range.
             let fits = |index: usize| alpha * axis[index] <= room;
@@ -179,6 +223,10 @@ impl<'a> Scan<'a> {
                 if room < 0.0 {
                     return None;
                 }
+                continue;
+            }
+            // Where both ends fit, so does everything between them.
+            if fits(first) && fits(last) {
                 continue;
             }
             let guess = ((room / alpha - axis[0]) / spacing).clamp(first as f64, last as f64) as usize;

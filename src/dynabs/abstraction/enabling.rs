@@ -4,7 +4,7 @@ use super::AbstractionError;
 use super::between::Between;
 use super::enabled::EnabledActions;
 use super::hazards::Hazards;
-use super::rooms::Rooms;
+use super::rooms::{Needed, Rooms};
 use super::steering::Steering;
 use super::targets::Targets;
 use super::windows::Windows;
@@ -53,8 +53,9 @@ impl Enabling {
         if let Some((hazards, windows, row_length)) = hazards {
             progress.start("steps in between", ordinary.len() as u64);
             let between = Between::new(problem, hazards, steering, windows);
-            let clear = between.filter(&ordinary, &actions, progress);
-            (rooms, targets, actions) = Rooms::new(clear, &targets, row_length);
+            let mut needed = Needed::new(&targets, row_length);
+            actions = between.filter(&ordinary, &actions, &mut needed, progress);
+            (rooms, targets, actions) = Rooms::new(actions, needed, &targets);
             progress.finish();
             if is_empty(&actions) {
                 return Err(AbstractionError::NothingClear { group_steps: problem.group_steps() });

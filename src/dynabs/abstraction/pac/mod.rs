@@ -103,7 +103,7 @@ use imdp::progress::Progress;
 use levels::{EventLevels, LowerBounds};
 pub(super) use levels::{offset_weight, total_offset_weight};
 use preference::Chooser;
-pub(super) use preference::Preference;
+pub(super) use preference::{Preference, Worth};
 pub(super) use prepared::Prepared;
 use rayon::prelude::*;
 use roomy::RoomBounds;
@@ -218,22 +218,22 @@ impl<'a> PacRows<'a> {
         let rows = match &self.stencils {
             None => super::row_tasks::build_rows(self.targets.len(), progress, |target, rows| {
                 let stencils = self.stencils_of(target);
-                let mut chooser = Chooser::new(self, preference);
+                let rivals = self.rivals(&stencils);
+                let mut chooser = Chooser::new(self, preference, &rivals);
                 let chosen = chooser.choose(&stencils, target);
                 rows.push_row(chooser.row(&stencils, &chosen));
             })
             .into(),
-            Some(stencils) => StencilRows::new(
-                self.ground.clone(),
-                stencils.clone(),
-                self.targets.len(),
-                || Chooser::new(self, preference),
-                |chooser, target| {
+            Some(stencils) => {
+                let rivals = self.rivals(stencils);
+                let start = || Chooser::new(self, preference, &rivals);
+                let choose = |chooser: &mut Chooser<'_>, target| {
                     progress.advance(1);
                     chooser.choose(stencils, target)
-                },
-            )
-            .into(),
+                };
+                let (ground, stencils) = (self.ground.clone(), stencils.clone());
+                StencilRows::new(ground, stencils, self.targets.len(), start, choose).into()
+            }
         };
         progress.finish();
         rows
@@ -265,6 +265,18 @@ impl<'a> PacRows<'a> {
     /// The number of windows.
     fn windows(&self) -> usize {
         self.prepared.unseen.len()
+    }
+
+    /// Of the windows with these stencils, those that may be better than the ones before: not those that list the same cells with
+    /// lower bounds nowhere above, for more noise is outside. With a room nothing else differs from window to window.
+    fn rivals(&self, stencils: &[Stencil]) -> Vec<usize> {
+        let is_beaten = |window: usize, before: usize| {
+            let mut of_goal = self.goal.intervals();
+            stencils[window].is_within(&stencils[before])
+                && of_goal.all(|goal| goal.lower[window] <= goal.lower[before])
+        };
+        let is_rival = |&window: &usize| !(0..window).any(|before| is_beaten(window, before));
+        (0..self.windows()).filter(is_rival).collect()
     }
 
     /// Where the stencils of an action are among those of all.

@@ -73,6 +73,15 @@ impl Stencil {
         &self.runs
     }
 
+    /// Whether these are the cells of another stencil, with lower bounds nowhere above its own; upper bounds are the same.
+    pub(super) fn is_within(&self, other: &Self) -> bool {
+        let (runs, others) = (&self.runs, &other.runs);
+        runs.hull() == others.hull()
+            && runs.len() == others.len()
+            && self.upper[1..] == other.upper[1..]
+            && (0..runs.len()).all(|position| self.lower(position) <= other.lower(position))
+    }
+
     /// The lower bound at a position in the runs.
     pub(super) fn lower(&self, position: usize) -> f64 {
         match &self.lower {
@@ -94,9 +103,11 @@ impl Stencil {
         }
         let RowEntries { successors, lower, upper } = entries;
         let room = self.runs.len() + 2;
-        successors.resize(room, StateId(0));
-        lower.resize(room, 0.0);
-        upper.resize(room, 0.0);
+        if successors.len() < room {
+            successors.resize(room, StateId(0));
+            lower.resize(room, 0.0);
+            upper.resize(room, 0.0);
+        }
         let mut end = 0;
         let specials = [Some((StateId(0), special.first)), special.reached.map(|b| (StateId(1), b))];
         for (state, bounds) in specials.into_iter().flatten() {
@@ -105,6 +116,14 @@ impl Stencil {
         }
         self.runs.for_each(ground, origin, |first, position, length| {
             let states = &ground.states[first..first + length];
+            if ground.lists_all(states) {
+                let place = end..end + length;
+                successors[place.clone()].copy_from_slice(states);
+                upper[place.clone()].copy_from_slice(&self.upper[position + 1..position + 1 + length]);
+                self.copy_lower(position, &mut lower[place]);
+                end += length;
+                return;
+            }
             for ((&state, &high), position) in states.iter().zip(&self.upper[position + 1..]).zip(position..)
             {
                 // What is not listed is overwritten by what comes next.
@@ -113,6 +132,18 @@ impl Stencil {
             }
         });
         Row { successors: &successors[..end], lower: &lower[..end], upper: &upper[..end], exact: &[] }
+    }
+
+    /// Writes the lower bounds from a position in the runs on.
+    fn copy_lower(&self, position: usize, out: &mut [f64]) {
+        match &self.lower {
+            Lower::InOrder(lower) => out.copy_from_slice(&lower[position + 1..position + 1 + out.len()]),
+            Lower::At(of_places, places) => {
+                for (out, &place) in out.iter_mut().zip(&places[position..]) {
+                    *out = of_places[place as usize];
+                }
+            }
+        }
     }
 
     /// Whether a row with so many entries lists all cells, with nothing else before them than is at hand.
