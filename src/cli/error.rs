@@ -1,15 +1,13 @@
 //! Errors as the tools report them, and their exit codes.
 
-use super::warn;
 use dynabs::Diagnostic;
 use dynabs::abstraction::AbstractionError;
 use dynabs::explain::GroupingTable;
-use dynabs::problem::GroupingTrial;
 use dynabs::run::RunDirectoryError;
+use dynabs::system::GroupingTrial;
 use imdp::files::{is_fault_of_input, is_interruption};
 use std::io;
 use std::path::Path;
-use std::process::ExitCode;
 
 /// Why a tool stopped.
 #[derive(Debug, thiserror::Error)]
@@ -123,23 +121,6 @@ impl CliError {
             }
         };
         diagnostic.in_file(file).into()
-    }
-}
-
-/// Reports an error on stderr and turns the outcome into an exit code.
-///
-/// 0 done, 2 bad input or usage, 3 interrupted, 4 I/O or internal error; 1 is up to the tool.
-pub fn exit_with(outcome: Result<ExitCode, CliError>) -> ExitCode {
-    match outcome {
-        Ok(code) => code,
-        Err(error) => {
-            warn(&format!("error: {error}\n"));
-            ExitCode::from(match error {
-                CliError::Input(_) => 2,
-                CliError::Interrupted => 3,
-                _ => 4,
-            })
-        }
     }
 }
 

@@ -1,10 +1,9 @@
 //! Progress bars for people who wait.
 
-use super::signals;
 use imdp::progress::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Work shorter than this shows no bar.
@@ -43,11 +42,6 @@ impl Bars {
     /// Bars, unless `quiet`.
     pub fn new(quiet: bool) -> Self {
         Self { quiet, interrupt: AtomicBool::new(false), current: Mutex::new(None) }
-    }
-
-    /// Takes Ctrl-C from now on: the first one asks the work to end cleanly, the second one ends the program.
-    pub fn catch_interrupts(self: &Arc<Self>) {
-        signals::listen(self);
     }
 
     /// Asks the work to end; returns whether that was asked before.

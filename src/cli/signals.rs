@@ -6,9 +6,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Who is asked to end cleanly; without anybody, the program ends at once.
 static LISTENER: Mutex<Option<Arc<Bars>>> = Mutex::new(None);
 
-/// From now on the first signal asks `bars` to end the work cleanly, and the second one ends the program.
-pub(crate) fn listen(bars: &Arc<Bars>) {
-    *LISTENER.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::clone(bars));
+impl Bars {
+    /// Takes Ctrl-C from now on: the first one asks the work to end cleanly, the second one ends the program.
+    pub fn catch_interrupts(self: &Arc<Self>) {
+        *LISTENER.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::clone(self));
+    }
 }
 
 /// Takes signals from now on: whatever ends the program leaves nothing behind and gives a documented exit code.

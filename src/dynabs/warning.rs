@@ -1,8 +1,8 @@
 //! What a user should know although nothing is wrong for certain.
 
 use crate::partition::NearMiss;
-use crate::problem::GroupingTrial;
 use crate::statistics::{Departure, Trend};
+use crate::system::GroupingTrial;
 use imdp::numeric::{shortest_decimal, to_f64};
 use std::fmt;
 

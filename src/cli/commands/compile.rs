@@ -1,8 +1,9 @@
 //! `dynabs-compile`: from a model file to PRISM files.
 
 use super::compile_inputs;
-use super::solve::LimitArguments;
 use crate::choices::format_names;
+use crate::limits::LimitArguments;
+use crate::pruning::pruned;
 use crate::resources::{Resources, peak};
 use crate::results::{PropertyResult, exit_code, table};
 use crate::summary::{memory, memory_json, summary};
@@ -16,9 +17,8 @@ use dynabs::problem::Problem;
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, solution_options, write_run};
 use imdp::files::{self, Outputs};
 use imdp::formats::Format;
-use imdp::model::IntervalMdp;
-use imdp::property::{Property, Verdict};
-use imdp::solver::{Answer, Pruned};
+use imdp::property::Verdict;
+use imdp::solver::Answer;
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -104,9 +104,6 @@ pub struct CompileArguments {
     #[arg(long, conflicts_with_all = ["model", "output"])]
     schema: bool,
 }
-
-/// Without a bound on the steps, how close the bounds must be before it is decided what matters.
-const PRUNING_EPSILON: f64 = 1e-9;
 
 const AFTER_HELP: &str = "\
 Exit codes: 0 done, 2 bad input or usage, 3 interrupted, 4 I/O, memory or internal error;
@@ -289,22 +286,6 @@ fn write_options<'a>(arguments: &CompileArguments) -> WriteOptions<'a> {
 /// Replaces the model by what an optimal policy needs of it.
 fn prune(abstraction: &mut Abstraction, bars: &Bars) -> Result<(PropertyResult, PruningReport), CliError> {
     pruned(&mut abstraction.model, &abstraction.property, bars)
-}
-
-/// Replaces a model by what an optimal policy for a property needs of it.
-pub(super) fn pruned(
-    model: &mut IntervalMdp,
-    property: &Property,
-    bars: &Bars,
-) -> Result<(PropertyResult, PruningReport), CliError> {
-    let start = Instant::now();
-    let limits = LimitArguments::of_epsilon(PRUNING_EPSILON);
-    let pruned = limits.with_options(bars, |options| Pruned::new(model, property, options));
-    let pruned = pruned.map_err(|error| CliError::Failure(format!("--prune: {property}: {error}")))?;
-    let result = PropertyResult::new(property, &pruned.after, &pruned.model, start.elapsed());
-    let report = PruningReport::new(property, model.size(), &pruned);
-    *model = pruned.model;
-    Ok((result, report))
 }
 
 fn read_model(path: &Path) -> Result<String, CliError> {

@@ -1,7 +1,7 @@
 //! `dynabs-compile` for actions that are inputs.
 
-use super::compile::pruned;
 use crate::input_summary::{InputResult, summary};
+use crate::pruning::pruned;
 use crate::resources::peak;
 use crate::summary::{memory, memory_json};
 use crate::{Bars, CliError, print, warn};

@@ -1,7 +1,7 @@
 //! `dynabs-check crosscheck`: the same question to other people's solvers.
 
-use super::solve::LimitArguments;
 use crate::crosscheck_table::table;
+use crate::limits::LimitArguments;
 use crate::model_source::{LoadedModel, load, model_help};
 use crate::questions::QuestionArguments;
 use crate::{Bars, CliError, print, print_json, warn};
@@ -48,11 +48,11 @@ pub struct CrosscheckArguments {
     python: Option<PathBuf>,
 
     /// End an engine that takes longer than this many seconds for one property.
-    #[arg(long, value_name = "SECONDS", default_value_t = 600.0, value_parser = super::solve::seconds)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 600.0, value_parser = crate::limits::seconds)]
     timeout: f64,
 
     /// Unbounded properties: how close our own bounds must be.
-    #[arg(long, value_name = "E", default_value_t = 1e-10, value_parser = super::solve::positive)]
+    #[arg(long, value_name = "E", default_value_t = 1e-10, value_parser = crate::limits::positive)]
     epsilon: f64,
 
     /// Print one JSON object instead of the table.

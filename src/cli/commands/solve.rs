@@ -3,6 +3,7 @@
 use crate::exports::{write_cell_policy, write_cell_values, write_evaluated, write_policy, write_values};
 use crate::input_run_source::SolvedInputs;
 use crate::input_summary::InputResult;
+use crate::limits::LimitArguments;
 use crate::model_source::{LoadedModel, load, model_help};
 use crate::questions::{Asked, QuestionArguments};
 use crate::resources::peak;
@@ -15,7 +16,6 @@ use imdp::compare::ResultsFile;
 use imdp::evaluation::{Evaluation, direct};
 use imdp::files::Outputs;
 use imdp::model::IntervalMdp;
-use imdp::progress::Progress;
 use imdp::property::{Compound, Inquiry, Property};
 use imdp::solver::{Answer, SolverOptions};
 use serde_json::json;
@@ -60,32 +60,6 @@ pub struct SolveArguments {
     /// Print nothing but errors (and the object of --json).
     #[arg(short, long)]
     quiet: bool,
-}
-
-/// When to stop.
-#[derive(Clone, Debug, Args)]
-pub struct LimitArguments {
-    /// Unbounded properties: stop when the bounds are this close, absolutely.
-    #[arg(long, value_name = "E", default_value_t = 1e-6, value_parser = positive)]
-    epsilon: f64,
-
-    /// Stop after this many iterations.
-    #[arg(long, value_name = "N")]
-    max_iterations: Option<u64>,
-
-    /// Stop each property after this many seconds.
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
-    time_limit: Option<f64>,
-}
-
-pub(super) fn positive(text: &str) -> Result<f64, String> {
-    let number = text.parse::<f64>().ok().filter(|x| x.is_finite() && *x > 0.0);
-    number.ok_or_else(|| "expected a positive number".to_owned())
-}
-
-pub(crate) fn seconds(text: &str) -> Result<f64, String> {
-    let number = positive(text)?;
-    Duration::try_from_secs_f64(number).map(|_| number).map_err(|error| error.to_string())
 }
 
 /// Runs the subcommand.
@@ -224,12 +198,7 @@ fn write_evaluation(
 fn solve_inputs(arguments: &SolveArguments, bars: &Arc<Bars>) -> Result<ExitCode, CliError> {
     bars.catch_interrupts();
     let start = Instant::now();
-    let options = SolverOptions {
-        epsilon: arguments.limits.epsilon,
-        max_iterations: arguments.limits.max_iterations.unwrap_or(u64::MAX),
-        time_limit: arguments.limits.time_limit.map(Duration::from_secs_f64),
-        ..SolverOptions::default()
-    };
+    let options = arguments.limits.options();
     let SolvedInputs { run, solution } = SolvedInputs::open(&arguments.path, Some(&options), bars)?;
     let result = InputResult::new(&run.problem, &run.abstraction, &solution, start.elapsed());
     let result = result.with_exported(&run.problem, &run.abstraction, &options);
@@ -307,32 +276,6 @@ fn answer(
     let answer = answer.map_err(|error| CliError::Input(format!("{property}: {error}")))?;
     let result = PropertyResult::new(property, &answer, model, start.elapsed());
     Ok((answer, result))
-}
-
-impl LimitArguments {
-    /// No limits, and bounds this close.
-    pub(super) fn of_epsilon(epsilon: f64) -> Self {
-        Self { epsilon, ..Self::default() }
-    }
-
-    /// Computes something within these limits, with the current gap on display.
-    pub(super) fn with_options<T>(&self, bars: &Bars, compute: impl FnOnce(&SolverOptions<'_>) -> T) -> T {
-        let result = compute(&SolverOptions {
-            epsilon: self.epsilon,
-            max_iterations: self.max_iterations.unwrap_or(u64::MAX),
-            time_limit: self.time_limit.map(Duration::from_secs_f64),
-            progress: bars,
-            ..SolverOptions::default()
-        });
-        bars.finish();
-        result
-    }
-}
-
-impl Default for LimitArguments {
-    fn default() -> Self {
-        Self { epsilon: SolverOptions::default().epsilon, max_iterations: None, time_limit: None }
-    }
 }
 
 fn report(

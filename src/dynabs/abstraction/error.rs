@@ -1,8 +1,8 @@
 //! Why there is no abstraction.
 
 use crate::memory::TooLarge;
-use crate::problem::GroupingTrial;
 use crate::statistics::BudgetError;
+use crate::system::GroupingTrial;
 use imdp::model::ImdpError;
 
 /// Why a valid problem has no abstraction.

@@ -1,6 +1,6 @@
 //! Reasons, as numbers and in words.
 
-use crate::problem::GroupingTrial;
+use crate::system::GroupingTrial;
 use serde::Serialize;
 use std::fmt;
 

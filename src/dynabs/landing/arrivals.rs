@@ -1,6 +1,6 @@
 //! Which state of the model a run arrives in.
 
-use super::layers::push_any;
+use super::picks::push_any;
 use crate::task::{CellTask, Standing};
 use imdp::model::{Rows, StateId};
 use std::collections::HashMap;

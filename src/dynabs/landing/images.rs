@@ -2,22 +2,10 @@
 
 use super::arrays::Arrays;
 use super::axis::Axis;
+use super::image_source::ImageSource;
 use super::layout::Layout;
 use super::side::Side;
 use rayon::prelude::*;
-
-/// Where a cell goes under an input: a product of ranges of sub-cells, one for each coordinate.
-pub trait ImageSource: Sync {
-    /// The number of inputs.
-    fn inputs(&self) -> usize;
-
-    /// The ranges that occur in a coordinate, from their first to their last sub-cell, unwrapped.
-    fn ranges(&self, coordinate: usize) -> &[(i64, i64)];
-
-    /// Writes by coordinate which of its ranges has the image of a cell under an input; `false` if the input is not
-    /// enabled there.
-    fn image(&self, cell: u32, input: u32, out: &mut [u32]) -> bool;
-}
 
 /// The images of a set of cells.
 ///
@@ -33,20 +21,6 @@ pub struct Images {
     /// By cell, by input: the shape; nothing if there is only one.
     shapes: Vec<u16>,
     layout: Layout,
-}
-
-/// Why images cannot be stored.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum LandingError {
-    /// The lattice has too many points.
-    #[error(
-        "a lattice of {points} sub-cells in which images and noise land is too fine; at most {}",
-        u32::MAX - 1
-    )]
-    TooFine {
-        /// The number of sub-cells that are looked at.
-        points: u128,
-    },
 }
 
 /// What an input that is not enabled has for a position.

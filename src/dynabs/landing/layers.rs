@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use super::move_layers::MoveLayer;
+use super::picks::push_any;
 use super::step::Landing;
 use super::weights::Weights;
 use imdp::model::{Rows, StateId};
@@ -180,15 +181,6 @@ impl<'a> Layers<'a> {
         };
         push_any(rows, cells.into_iter().map(state).collect());
     }
-}
-
-/// A row in which nature picks any of some states.
-pub(super) fn push_any(rows: &mut Rows, mut states: Vec<StateId>) {
-    states.sort_unstable();
-    states.dedup();
-    let lower = if states.len() == 1 { 1.0 } else { 0.0 };
-    states.iter().for_each(|&state| rows.push_entry(state, lower, 1.0));
-    rows.finish_row();
 }
 
 /// The number of pair states of an axis.

@@ -3,7 +3,7 @@
 use super::arrays::Arrays;
 use super::axis::Axis;
 use super::gather::Gather;
-use super::images::{ImageSource, LandingError};
+use super::image_source::{ImageSource, LandingError};
 use super::side::Side;
 use std::collections::BTreeSet;
 

@@ -7,7 +7,8 @@
 
 use super::arrivals::{Arrivals, FAILED, LOST, REACHED};
 use super::images::Images;
-use super::layers::{Layers, Outcomes, push_any};
+use super::layers::{Layers, Outcomes};
+use super::picks::push_any;
 use super::solve::Question;
 use super::step::Landing;
 use crate::task::Aim;

@@ -1,7 +1,7 @@
 //! The moves of a stencil as states of an interval MDP: places, and boxes that nature picks a place from.
 
-use super::layers::push_any;
 use super::moves::Move;
+use super::picks::push_any;
 use imdp::model::{Rows, StateId};
 use std::collections::BTreeMap;
 

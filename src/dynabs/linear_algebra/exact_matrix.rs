@@ -1,6 +1,5 @@
 //! Small dense matrices of exact rationals.
 
-use super::modular::rank;
 use imdp::numeric::{Rational, from_decimal, to_f64};
 use nalgebra::DMatrix;
 use num_traits::{One, Signed, Zero};
@@ -122,11 +121,6 @@ impl ExactMatrix {
         Self::from_fn(self.rows, self.columns + other.columns, |i, j| {
             if j < self.columns { self.get(i, j).clone() } else { other.get(i, j - self.columns).clone() }
         })
-    }
-
-    /// The rank, in the sense of [`rank`](super::modular::rank).
-    pub fn rank(&self) -> usize {
-        rank(self)
     }
 
     /// The number of bits that the largest entry takes.

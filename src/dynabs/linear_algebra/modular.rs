@@ -40,6 +40,13 @@ pub fn krylov_rank(a: &ExactMatrix, b: &ExactMatrix, d: usize) -> usize {
     PRIMES.iter().filter_map(of).max().unwrap_or(0)
 }
 
+impl ExactMatrix {
+    /// The rank, in the sense of [`rank`].
+    pub fn rank(&self) -> usize {
+        rank(self)
+    }
+}
+
 impl Modular {
     /// `None` if the prime divides a denominator.
     fn new(matrix: &ExactMatrix, prime: u64) -> Option<Self> {

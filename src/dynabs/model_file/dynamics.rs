@@ -1,8 +1,8 @@
 //! The field `dynamics` of a model file, and the mode it describes.
 
-use super::fields::{GridSpec, SetSpec};
+use super::given::given;
 use super::named::Named;
-use super::parts::given;
+use super::set_fields::{GridSpec, SetSpec};
 use crate::Diagnostic;
 use crate::problem::{Constant, Equations, ExpressionDynamics, GroupSteps, LinearDynamics};
 use crate::system::{Discretisation, Interval, Mode, SampledLinear, Variable};

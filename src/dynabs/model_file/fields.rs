@@ -2,8 +2,9 @@
 
 use super::dynamics::DynamicsSpec;
 use super::named::Named;
+use super::set_fields::{GridSpec, SetSpec};
 use super::task_fields::{ShapesSpec, TaskSpec};
-use crate::problem::{DistributionParts, GroupSteps};
+use crate::problem::DistributionParts;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
@@ -158,31 +159,6 @@ pub(super) struct GaussianSpec {
     pub(super) covariance: Vec<Vec<f64>>,
 }
 
-/// A set of inputs: a box (`lower`, `upper`) or a polytope `{u : G u ≤ g}`.
-#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct SetSpec {
-    /// The lower corner of a box.
-    #[serde(default)]
-    pub(super) lower: Option<Vec<f64>>,
-    /// The upper corner of a box.
-    #[serde(default)]
-    pub(super) upper: Option<Vec<f64>>,
-    /// The normals of a polytope, one row per half-space.
-    #[serde(rename = "G", default)]
-    pub(super) normals: Option<Vec<Vec<f64>>>,
-    /// The offsets of a polytope, one per half-space.
-    #[serde(rename = "g", default)]
-    pub(super) offsets: Option<Vec<f64>>,
-    /// For actions "inputs": how many values of each input of a box there are to choose from, evenly spaced with both
-    /// ends; 5 of a single input and 3 of each of several if absent.
-    #[serde(default)]
-    pub(super) points: Option<Vec<u32>>,
-    /// For actions "inputs": the inputs to choose from.
-    #[serde(default)]
-    pub(super) list: Option<Vec<Vec<f64>>>,
-}
-
 /// A lower layer `u = −K (x − x̄) + u′` on the grouped system (d·p inputs).
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -230,24 +206,6 @@ pub(super) struct LqrSpec {
     #[serde(default)]
     #[schemars(range(max = 300))]
     pub(super) decimals: Option<u32>,
-}
-
-/// A grid: the box from `lower` to `upper`, cut into equal cells.
-#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct GridSpec {
-    /// The lower corner, n numbers.
-    pub(super) lower: Vec<f64>,
-    /// The upper corner, n numbers.
-    pub(super) upper: Vec<f64>,
-    /// The number of cells in each dimension.
-    pub(super) cells: Vec<u32>,
-    /// For actions "inputs": in which dimensions the upper face is the lower one again, as with angles.
-    #[serde(default)]
-    pub(super) periodic: Option<Vec<bool>>,
-    /// For actions "inputs": how many sub-cells a cell has in each dimension for images to land on; chosen if absent.
-    #[serde(default)]
-    pub(super) resolution: Option<Vec<u32>>,
 }
 
 /// The points that actions steer to.
@@ -301,40 +259,6 @@ pub(super) enum Mode {
     Reference,
 }
 
-/// Reads an unsigned integer or one keyword.
-pub(super) struct IntegerOr {
-    pub(super) keyword: &'static str,
-}
-
-impl<'de> Visitor<'de> for IntegerOr {
-    type Value = Option<u64>;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "a positive integer or \"{}\"", self.keyword)
-    }
-
-    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Option<u64>, E> {
-        if value == 0 { Err(E::invalid_value(de::Unexpected::Unsigned(0), &self)) } else { Ok(Some(value)) }
-    }
-
-    fn visit_str<E: de::Error>(self, value: &str) -> Result<Option<u64>, E> {
-        if value == self.keyword {
-            Ok(None)
-        } else {
-            Err(E::invalid_value(de::Unexpected::Str(value), &self))
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for GroupSteps {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        match deserializer.deserialize_any(IntegerOr { keyword: "auto" })? {
-            None => Ok(Self::Auto),
-            Some(steps) => u32::try_from(steps).map(Self::Steps).map_err(de::Error::custom),
-        }
-    }
-}
-
 impl<'de> Deserialize<'de> for TargetsSpec {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(TargetsVisitor)
@@ -363,16 +287,6 @@ impl<'de> Visitor<'de> for TargetsVisitor {
 
     fn visit_seq<A: SeqAccess<'de>>(self, items: A) -> Result<TargetsSpec, A::Error> {
         Vec::deserialize(SeqAccessDeserializer::new(items)).map(TargetsSpec::Points)
-    }
-}
-
-impl JsonSchema for GroupSteps {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        "GroupSteps".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({"anyOf": [{"type": "integer", "minimum": 1}, {"const": "auto"}]})
     }
 }
 

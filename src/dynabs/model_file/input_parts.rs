@@ -2,9 +2,11 @@
 
 use super::fields::{
     CostSpec, FeedbackSpec, GaussianSpec, IndependentSpec, LqrSpec, ModelFile, NoiseSpec, ProbabilitiesSpec,
-    SetSpec, TargetsSpec,
+    TargetsSpec,
 };
-use super::parts::{self, given, input_set, partition, probabilities};
+use super::given::given;
+use super::parts::{self, input_set, partition, probabilities};
+use super::set_fields::SetSpec;
 use super::task_parts::task;
 use crate::Diagnostic;
 use crate::problem::{

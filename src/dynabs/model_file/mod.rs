@@ -3,13 +3,17 @@
 mod document;
 mod dynamics;
 mod fields;
+mod given;
 mod input_parts;
+mod integer_or;
 mod named;
 mod parts;
 mod schema;
+mod set_fields;
+mod stated;
 mod task_fields;
 mod task_parts;
 
 pub use document::{Document, SetArgument};
-pub use parts::StatedProblem;
 pub use schema::{json_schema, starter_model};
+pub use stated::StatedProblem;

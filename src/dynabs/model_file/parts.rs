@@ -1,71 +1,22 @@
 //! From the fields of a model file to the parts of a problem.
 
-use super::Document;
 use super::dynamics::DynamicsSpec;
 use super::fields::{
-    ActionsSpec, GaussianSpec, GridSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec, SampleKindSpec,
-    SamplesSpec, SetSpec, StabilizerSpec, TargetsSpec,
+    GaussianSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec, SampleKindSpec, SamplesSpec, StabilizerSpec,
+    TargetsSpec,
 };
-use super::input_parts::input_parts;
+use super::given::given;
+use super::set_fields::{GridSpec, SetSpec};
 use super::task_parts::task;
 use crate::Diagnostic;
 use crate::problem::{
-    DrawnNoise, Gain, GaussianNoise, InputProblem, InputSet, LinearDynamics, LowerLayer, LqrWeights,
-    NoiseSource, Partition, Probabilities, Problem, ProblemBuilder, SampleKind, SamplesFile, TargetChoice,
+    DrawnNoise, Gain, GaussianNoise, InputSet, LinearDynamics, LowerLayer, LqrWeights, NoiseSource,
+    Partition, Probabilities, Problem, ProblemBuilder, SampleKind, SamplesFile, TargetChoice,
 };
 use std::path::Path;
 
-/// What a model file states: a problem of the kind that its actions need.
-#[derive(Clone, Debug)]
-pub enum StatedProblem {
-    /// Actions steer to targets.
-    Targets(Box<Problem>),
-    /// Actions are inputs.
-    Inputs(Box<InputProblem>),
-}
-
-impl Document {
-    /// The problem that the model file states, whatever its actions.
-    ///
-    /// # Errors
-    /// A [`Diagnostic`] for the first mistake found.
-    pub fn stated(&self) -> Result<StatedProblem, Diagnostic> {
-        let stated = self.model().and_then(|file| match actions(&file) {
-            ActionsSpec::Inputs => InputProblem::new(input_parts(file, &self.directory)?)
-                .map(|problem| StatedProblem::Inputs(Box::new(problem))),
-            ActionsSpec::Targets => {
-                let problem = builder(file, &self.directory)?.build();
-                problem.map(|problem| StatedProblem::Targets(Box::new(problem)))
-            }
-        });
-        stated.map_err(|error| error.in_file(&self.name))
-    }
-
-    /// The problem that the model file states: field names, types and values are checked, samples read.
-    ///
-    /// # Errors
-    /// A [`Diagnostic`] for the first mistake found, or if actions are inputs.
-    pub fn problem(&self) -> Result<Problem, Diagnostic> {
-        match self.stated()? {
-            StatedProblem::Targets(problem) => Ok(*problem),
-            StatedProblem::Inputs(_) => {
-                Err(Diagnostic::at("/actions", "actions that are inputs", "targets to steer to")
-                    .in_file(&self.name))
-            }
-        }
-    }
-}
-
-/// The kind of actions: as stated, or what the other fields ask for.
-fn actions(file: &ModelFile) -> ActionsSpec {
-    let is_known = file.noise.gaussian.is_some() && file.noise.count.is_none();
-    let steered = file.noise.components.is_none() && !is_known && file.noise.independent.is_none();
-    let steered = steered && file.dynamics.beyond_matrices().is_none();
-    let default = if steered { ActionsSpec::Targets } else { ActionsSpec::Inputs };
-    file.actions.unwrap_or(default)
-}
-
-fn builder(file: ModelFile, directory: &Path) -> Result<ProblemBuilder, Diagnostic> {
+/// The parts of a problem whose actions steer to targets, not yet checked against each other.
+pub(super) fn builder(file: ModelFile, directory: &Path) -> Result<ProblemBuilder, Diagnostic> {
     if let Some(field) = file.dynamics.beyond_matrices() {
         let place = format!("/dynamics/{field}");
         return Err(Diagnostic::at(place, "a field for actions \"inputs\"", "A, B and q").remedy(INPUTS));
@@ -134,12 +85,6 @@ pub(super) fn input_set(place: &str, spec: SetSpec) -> Result<InputSet, Diagnost
             Err(Diagnostic::at(place, found, "a box {lower, upper} or a polytope {G, g}"))
         }
     }
-}
-
-/// The names of the fields that are there.
-pub(super) fn given(fields: &[(&str, bool)]) -> String {
-    let given: Vec<_> = fields.iter().filter(|(_, given)| *given).map(|(name, _)| *name).collect();
-    given.join(", ")
 }
 
 fn lower_layer(spec: StabilizerSpec) -> Result<LowerLayer, Diagnostic> {

@@ -1,6 +1,6 @@
 //! The fields of a task and of the regions that it speaks of.
 
-use super::fields::IntegerOr;
+use super::integer_or::IntegerOr;
 use crate::problem::Horizon;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};

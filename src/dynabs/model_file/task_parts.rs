@@ -1,7 +1,7 @@
 //! From the fields of a task to its parts.
 
+use super::given::given;
 use super::named::Named;
-use super::parts::given;
 use super::task_fields::{
     AutomatonSpec, LogicSpec, PlaceSpec, RegionSpec, SafetyCheck, ShapeSpec, ShapesSpec, TaskKind, TaskSpec,
     UnsafeSpec,

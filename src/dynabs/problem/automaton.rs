@@ -1,56 +1,14 @@
 //! Tasks over named regions: from text to an automaton.
 
-use super::regions::{RegionBox, region};
+use super::regions::{RegionParts, ShapeParts, region};
 use super::values::{matrix, vector};
-use super::{Horizon, Wanted};
+use super::{Horizon, Leg, Logic, Wanted};
 use crate::Diagnostic;
 use crate::geometry::Polytope;
 use crate::partition::Region;
 use crate::task::{self, AutomatonTask, NamedRegion, Shape};
 use imdp::automaton::{Dfa, Ltl, LtlError, read_hoa};
 use std::cell::RefCell;
-
-/// A region with a name, not yet checked: a union of shapes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RegionParts {
-    /// The name.
-    pub name: String,
-    /// The shapes.
-    pub shapes: Vec<ShapeParts>,
-}
-
-/// A box or a polytope, not yet checked.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ShapeParts {
-    /// A half-open box.
-    Box(RegionBox),
-    /// `{x : G x ≤ g}`.
-    Polytope {
-        /// `G`, one row per half-space.
-        normals: Vec<Vec<f64>>,
-        /// `g`, one number per half-space.
-        offsets: Vec<f64>,
-    },
-}
-
-/// One part of a sequence: to come to some regions without meeting others before.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Leg {
-    /// The name of the region to come to.
-    pub reach: String,
-    /// The names of those to avoid on the way.
-    pub avoid: Vec<String>,
-}
-
-/// What the words of a formula are.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Logic {
-    /// All that ever happens; what happens within the horizon must decide.
-    #[default]
-    Ltl,
-    /// What happens up to the horizon, or up to some time if there is none (LTLf).
-    Ltlf,
-}
 
 /// All regions, checked.
 pub(super) fn named_regions(parts: &[RegionParts], n: usize) -> Result<Vec<NamedRegion>, Diagnostic> {

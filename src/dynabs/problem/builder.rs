@@ -30,6 +30,13 @@ pub struct ProblemBuilder {
     noise: Option<NoiseSource>,
 }
 
+impl Problem {
+    /// Begins a problem for a system and the inputs allowed in one step.
+    pub fn builder(system: impl Into<Dynamics>, input: InputSet) -> ProblemBuilder {
+        ProblemBuilder::new(system.into(), input)
+    }
+}
+
 impl ProblemBuilder {
     pub(super) fn new(dynamics: Dynamics, input: InputSet) -> Self {
         Self {

@@ -3,10 +3,9 @@
 use super::{Actions, TargetPoints};
 use crate::geometry::Polytope;
 use crate::partition::{CellId, CellKind, CellLabels, Grid};
-use crate::system::{LinearSystem, rough_right_inverse};
+use crate::system::{GroupingTrial, LinearSystem, rough_right_inverse};
 use imdp::numeric::to_f64;
 use nalgebra::{DMatrix, DVector};
-use serde::Serialize;
 
 /// No more steps than this are grouped without being asked for.
 const MOST_STEPS: usize = 64;
@@ -19,22 +18,6 @@ const FEW_TARGETS: u32 = 10_000;
 /// In more dimensions the cells around one are too many to try.
 const MOST_NEIGHBOURED: usize = 6;
 
-/// What a number of grouped steps could do.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct GroupingTrial {
-    /// The number of steps.
-    pub steps: usize,
-    /// The input of one step, from 0, which is worst.
-    pub input: usize,
-    /// The share of its range that it takes to steer all states of one cell to one target. If it is more than
-    /// 1, nothing is enabled anywhere: cells must shrink, or its range must grow, by this factor.
-    pub share: f64,
-    /// Whether some target can be steered to from the cell of the initial state; `None` if there is none.
-    pub leaves_start: Option<bool>,
-    /// Whether a target in the goal can be steered to from somewhere; `None` if nothing is to be reached.
-    pub meets_goal: Option<bool>,
-}
-
 /// What the search is about.
 pub(super) struct Setting<'a> {
     /// The system of one step.
@@ -45,13 +28,6 @@ pub(super) struct Setting<'a> {
     pub(super) actions: &'a Actions,
     pub(super) labels: &'a CellLabels,
     pub(super) start: Option<CellId>,
-}
-
-impl GroupingTrial {
-    /// Whether everything that can be seen beforehand is as it must be.
-    pub fn works(&self) -> bool {
-        self.share <= 1.0 && self.leaves_start != Some(false) && self.meets_goal != Some(false)
-    }
 }
 
 impl Setting<'_> {

@@ -46,14 +46,12 @@ mod regions;
 mod task;
 mod values;
 
-pub use automaton::{Leg, Logic, RegionParts, ShapeParts};
 pub use builder::ProblemBuilder;
 pub use cost::{Cost, CostParts};
 pub use distribution::DistributionParts;
 pub use dynamics::{Dynamics, GroupSteps, LinearDynamics};
 pub use expression_dynamics::{Constant, Equations, ExpressionDynamics};
 pub use feedback_choice::FeedbackChoice;
-pub use grouping::GroupingTrial;
 pub use input_noise::{Components, InputNoise, InputNoiseParts, JointGaussian, StepSamples};
 pub use input_problem::{InputChoice, InputParts, InputProblem};
 pub use input_set::InputSet;
@@ -64,5 +62,5 @@ pub use noise::{
 };
 pub use probabilities::Probabilities;
 pub use problem::{Actions, Objective, Problem, TargetPoints};
-pub use regions::{Partition, RegionBox, TargetChoice};
-pub use task::{Hazard, Horizon, Task, Wanted};
+pub use regions::{Partition, RegionBox, RegionParts, ShapeParts, TargetChoice};
+pub use task::{Hazard, Horizon, Leg, Logic, Task, Wanted};

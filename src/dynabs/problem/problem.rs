@@ -1,10 +1,10 @@
 //! A control problem that is known to make sense.
 
-use super::{Dynamics, GroupingTrial, InputSet, Probabilities, ProblemBuilder, SampledNoise, Stabilizer};
+use super::{Probabilities, SampledNoise, Stabilizer};
 use crate::Warning;
 use crate::geometry::Polytope;
 use crate::partition::{CellId, CellLabels, Grid, Region};
-use crate::system::LinearSystem;
+use crate::system::{GroupingTrial, LinearSystem};
 use crate::task::{Aim, AutomatonTask, CellTask, Safety};
 use imdp::numeric::Rational;
 use imdp::property::Probability;
@@ -98,11 +98,6 @@ pub enum TargetPoints {
 }
 
 impl Problem {
-    /// Begins a problem for a system and the inputs allowed in one step.
-    pub fn builder(system: impl Into<Dynamics>, input: InputSet) -> ProblemBuilder {
-        ProblemBuilder::new(system.into(), input)
-    }
-
     /// The name of the model.
     pub fn name(&self) -> &str {
         &self.name

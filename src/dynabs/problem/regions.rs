@@ -38,6 +38,29 @@ pub struct RegionBox {
     pub upper: Vec<f64>,
 }
 
+/// A region with a name, not yet checked: a union of shapes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RegionParts {
+    /// The name.
+    pub name: String,
+    /// The shapes.
+    pub shapes: Vec<ShapeParts>,
+}
+
+/// A box or a polytope, not yet checked.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ShapeParts {
+    /// A half-open box.
+    Box(RegionBox),
+    /// `{x : G x ≤ g}`.
+    Polytope {
+        /// `G`, one row per half-space.
+        normals: Vec<Vec<f64>>,
+        /// `g`, one number per half-space.
+        offsets: Vec<f64>,
+    },
+}
+
 impl Partition {
     /// The grid in `n` dimensions.
     pub(super) fn grid(&self, place: &str, n: usize) -> Result<Grid, Diagnostic> {

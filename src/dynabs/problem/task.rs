@@ -1,7 +1,6 @@
 //! What the controller is to achieve, as parts that are not yet checked.
 
-use super::automaton::{Leg, Logic, RegionParts};
-use super::regions::RegionBox;
+use super::regions::{RegionBox, RegionParts};
 use crate::task::Safety;
 
 /// What is wanted, where, within how many steps.
@@ -67,6 +66,25 @@ pub enum Wanted {
         /// Its text, in the HOA format.
         hoa: String,
     },
+}
+
+/// One part of a sequence: to come to some regions without meeting others before.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Leg {
+    /// The name of the region to come to.
+    pub reach: String,
+    /// The names of those to avoid on the way.
+    pub avoid: Vec<String>,
+}
+
+/// What the words of a formula are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Logic {
+    /// All that ever happens; what happens within the horizon must decide.
+    #[default]
+    Ltl,
+    /// What happens up to the horizon, or up to some time if there is none (LTLf).
+    Ltlf,
 }
 
 /// A number of original steps.

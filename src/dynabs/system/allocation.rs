@@ -1,7 +1,7 @@
 //! Control allocation: how a demand is shared among more inputs than it takes.
 
-use super::LinearSystem;
 use super::rehearsal::Rehearsal;
+use super::{Demands, LinearSystem};
 use crate::geometry::Polytope;
 use crate::linear_algebra::ExactMatrix;
 use imdp::numeric::{Rational, from_dyadic, to_f64};
@@ -10,15 +10,6 @@ use num_traits::One;
 
 /// Weights are cut to so many bits, so that exact numbers stay short.
 const WEIGHT_BITS: u32 = 8;
-
-/// What a law is made for: the half widths of cells, and states at which to stay, with their weights.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Demands {
-    /// Half the width of a cell, per dimension.
-    pub cell: Vec<f64>,
-    /// States, and how much it matters that they can be kept.
-    pub holds: Vec<(Vec<f64>, f64)>,
-}
 
 /// A right inverse `M` of `B` and the input `ū` about which it is used: `u = ū + M (d − A x − q − B ū)`.
 ///

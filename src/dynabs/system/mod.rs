@@ -4,10 +4,12 @@
 //! law. For any system: [`expression`]s, [`Interval`]s, [`Mode`]s, and the [`ImageMap`] of cells under inputs.
 
 mod allocation;
+mod demands;
 pub mod expression;
 mod feedback;
 mod gain;
 mod grouping;
+mod grouping_trial;
 mod image;
 mod interval;
 mod law;
@@ -19,11 +21,12 @@ mod riccati;
 mod sampling;
 mod two_layer;
 
-pub use allocation::Demands;
 pub(crate) use allocation::rough_right_inverse;
+pub use demands::Demands;
 pub use feedback::Feedback;
 pub use gain::narrowing_gain;
 pub use grouping::{TooManyDigits, group, require_digits, smallest_group};
+pub use grouping_trial::GroupingTrial;
 pub use image::{ImageError, ImageMap, ImageScratch, Lattice, LatticeRange};
 pub use interval::Interval;
 pub use law::{Extent, FeedbackLaw, SteeringConstraint, decimal_gain, lower_layer_violation};

@@ -1,7 +1,6 @@
 //! A task that is an automaton over named regions.
 
-use super::cells::Standing;
-use super::{Aim, NamedRegion};
+use super::{Aim, NamedRegion, Standing};
 use imdp::automaton::Dfa;
 
 /// What is wanted, as a minimal automaton that reads at every step in which regions the state is.

@@ -1,23 +1,9 @@
 //! What the memory of a task becomes in each cell.
 
 use super::labels::{Label, labels};
-use super::{Aim, AutomatonTask};
+use super::{Aim, AutomatonTask, Memory, Standing};
 use crate::partition::{CellId, CellKind, Grid};
 use std::collections::HashMap;
-
-/// The number of a memory, from 0.
-pub type Memory = u32;
-
-/// Where a run of the system stands with its task.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Standing {
-    /// The task has failed.
-    Failed,
-    /// It is open, and this is the memory.
-    Open(Memory),
-    /// It is done.
-    Reached,
-}
 
 /// A task on the cells of a partition.
 ///

@@ -1,13 +1,10 @@
 //! Which regions a cell is in, for certain and perhaps.
 
-use super::NamedRegion;
+use super::{Letter, NamedRegion};
 use crate::geometry::Polytope;
 use crate::partition::{CellId, CellKind, CellLabels, Grid};
 use imdp::numeric::Rational;
 use num_traits::Signed;
-
-/// A set of regions, as bits.
-pub type Letter = u64;
 
 /// What is known of the letters of a cell: those from `certain` to `possible`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -10,10 +10,12 @@ mod cells;
 mod labels;
 mod region;
 mod safety;
+mod standing;
 
 pub use automaton::AutomatonTask;
-pub use cells::{CellTask, Letters, Memory, Standing};
+pub use cells::{CellTask, Letters};
 pub use imdp::automaton::Aim;
-pub use labels::{Label, Letter};
-pub use region::{HalfSpace, LetterLookup, NamedRegion, Shape};
+pub use labels::Label;
+pub use region::{HalfSpace, Letter, LetterLookup, NamedRegion, Shape};
 pub use safety::Safety;
+pub use standing::{Memory, Standing};

@@ -1,9 +1,11 @@
 //! Regions with names.
 
-use super::labels::Letter;
 use crate::geometry::Polytope;
 use crate::partition::Region;
 use imdp::numeric::to_f64;
+
+/// A set of regions, as bits.
+pub type Letter = u64;
 
 /// A part of the state space with a name: a union of shapes.
 #[derive(Clone, Debug, PartialEq, Eq)]

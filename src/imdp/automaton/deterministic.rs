@@ -1,6 +1,7 @@
 //! Deterministic automata whose states are all there.
 
-use super::hoa::{AcceptanceCondition, Guard};
+use super::acceptance::AcceptanceCondition;
+use super::guard::Guard;
 use super::{Acceptor, Aim, Condition, Dfa, LtlError};
 use crate::solver::strong_components;
 use std::collections::{HashMap, HashSet};

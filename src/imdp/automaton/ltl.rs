@@ -1,5 +1,6 @@
 //! Formulas, and their negation normal form.
 
+use super::LtlError;
 use super::formulas::{Dnf, Formulas, Modal};
 
 /// A formula of linear temporal logic over propositions that are numbered from 0.
@@ -27,46 +28,6 @@ pub enum Ltl {
     Weak(Box<Self>, Box<Self>),
     /// `a R b`: `b` up to and including the time of the first `a`, or for ever.
     Release(Box<Self>, Box<Self>),
-}
-
-/// A formula for which no automaton is made.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum LtlError {
-    /// There are too many temporal operators.
-    #[error("the formula has {found} different subformulas with F, G, U, W or R; expected at most {limit}")]
-    Operators {
-        /// How many there are.
-        found: usize,
-        /// How many are allowed.
-        limit: usize,
-    },
-    /// There are too many propositions.
-    #[error("the formula has {found} different state formulas; expected at most {limit}")]
-    Propositions {
-        /// How many there are.
-        found: usize,
-        /// How many are allowed.
-        limit: usize,
-    },
-    /// A bound on steps is unfolded, and would take too long.
-    #[error(
-        "found a bound of {found} steps inside of a larger path formula; expected at most {limit} (alone, as in P=? [ F<=1000 \"a\" ], \
-         any number will do)"
-    )]
-    Steps {
-        /// The steps.
-        found: u64,
-        /// How many are allowed.
-        limit: u64,
-    },
-    /// No prefix of a word decides the formula, by its form.
-    #[error(
-        "the formula is neither safe nor co-safe: something has to hold for ever or again and again, and something else to come"
-    )]
-    Undecided,
-    /// What remains of a formula becomes too large.
-    #[error("the automaton of the formula becomes too large; simplify the formula")]
-    Size,
 }
 
 /// `a M b` is the negation of `¬a W ¬b` and the strong form of `R`: it has no syntax of its own.

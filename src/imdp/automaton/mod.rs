@@ -20,14 +20,17 @@
 //!
 //! [`read_hoa`] reads others from files; a [`DeterministicAutomaton`] may have any condition of what is met infinitely often.
 
+mod acceptance;
 mod acceptor;
 mod checks;
 mod deterministic;
 mod dfa;
 mod finite;
 mod formulas;
+mod guard;
 mod hoa;
 mod ltl;
+mod ltl_error;
 #[cfg(test)]
 mod random;
 mod run;
@@ -36,7 +39,8 @@ mod text;
 pub use deterministic::DeterministicAutomaton;
 pub use dfa::{Aim, Dfa};
 pub use hoa::{HoaError, HoaErrorKind, read_hoa};
-pub use ltl::{Ltl, LtlError};
+pub use ltl::Ltl;
+pub use ltl_error::LtlError;
 
 pub(crate) use acceptor::{Acceptor, Condition};
 pub(crate) use deterministic::MarkedAutomaton;

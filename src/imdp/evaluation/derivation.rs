@@ -1,18 +1,13 @@
 //! Expressions evaluated again with what is proved in place of what is computed.
 
 use super::EvaluationError;
+use super::checker::Checker;
 use super::expression::Evaluator;
-use super::product::Product;
-use crate::certificate::{Claim, Derivation, Evidence, FileDigest};
-use crate::model::{IntervalMdp, RewardStructure, StateSet};
-use crate::numeric::Rational;
-use crate::property::{Definitions, Inquiry, QueryKind, Resolution, Verdict, parse_inquiry};
-use crate::solver::{Acceptance, Event, SolverOptions, ValueBounds};
-use crate::verify::{
-    OmegaCondition, Proved, ProvedBounds, Rejection, RewardTask, Side, check_model, prove, prove_accepting,
-    prove_nothing_missed, prove_rewards,
-};
-use num_traits::One;
+use crate::certificate::{Claim, Derivation, FileDigest};
+use crate::model::IntervalMdp;
+use crate::property::{Definitions, Inquiry, Verdict, parse_inquiry};
+use crate::solver::SolverOptions;
+use crate::verify::{Proved, Rejection, Side, check_model};
 
 /// Checks the certificate of an expression against a model and the digests of the files it was read from.
 ///
@@ -34,7 +29,7 @@ pub fn check_derivation(
         return Err(problem("the expression is a property, which has certificates of its own".to_owned()));
     };
     let mut evaluator = Evaluator::new(model, derivation.nature, SolverOptions::default());
-    evaluator.checker = Some(Checker { proofs: derivation.proofs.iter(), steps: 0, rows: 0 });
+    evaluator.checker = Some(Checker::new(&derivation.proofs));
     let values = evaluator.values(&compound.root).map_err(|error| match error {
         EvaluationError::Proof(rejection) => rejection,
         other => problem(other.to_string()),
@@ -45,7 +40,7 @@ pub fn check_derivation(
         ));
     }
     let (steps, rows, left) = match &evaluator.checker {
-        Some(checker) => (checker.steps, checker.rows, checker.proofs.len()),
+        Some(checker) => (checker.steps, checker.rows, checker.num_left()),
         None => (0, 0, 0),
     };
     if left > 0 {
@@ -86,79 +81,5 @@ fn words(claim: Claim) -> String {
         Claim::Verdict(Verdict::Holds) => "holds".to_owned(),
         Claim::Verdict(Verdict::Fails) => "fails".to_owned(),
         Claim::Verdict(Verdict::Unknown) => "is undecided".to_owned(),
-    }
-}
-
-fn condition(acceptance: &Acceptance) -> OmegaCondition<'_> {
-    OmegaCondition { finitely: &acceptance.finitely, infinitely: &acceptance.infinitely }
-}
-
-/// The proofs that are left, and how much was checked.
-pub(super) struct Checker<'a> {
-    proofs: std::slice::Iter<'a, Evidence>,
-    steps: u64,
-    rows: u64,
-}
-
-impl<'a> Checker<'a> {
-    /// What the next proof proves about the probability of an event.
-    pub(super) fn event(
-        &mut self,
-        model: &IntervalMdp,
-        event: &Event<'_>,
-        first: u64,
-        resolution: Resolution,
-    ) -> Result<ValueBounds, EvaluationError> {
-        if first > 0 {
-            let problem = "there are no proofs about events that begin after some steps".to_owned();
-            return Err(Rejection::Expression { problem }.into());
-        }
-        let kind = match *event {
-            Event::Until { safe, goal, steps } => {
-                QueryKind::Until { safe: safe.clone(), goal: goal.clone(), steps }
-            }
-            Event::Next { goal } => QueryKind::Next { goal: goal.clone() },
-        };
-        let evidence = self.next()?;
-        Ok(self.note(prove(model, kind, resolution, evidence)?))
-    }
-
-    /// What the next proof proves about an expected reward.
-    pub(super) fn rewards(
-        &mut self,
-        model: &IntervalMdp,
-        rewards: &RewardStructure,
-        task: &RewardTask<'_>,
-        resolution: Resolution,
-    ) -> Result<ValueBounds, EvaluationError> {
-        if matches!(task, RewardTask::Cumulative { steps: None, discount } if *discount >= Rational::one()) {
-            return Err(crate::solver::SolveError::Undiscounted.into());
-        }
-        let evidence = self.next()?;
-        Ok(self.note(prove_rewards(model, rewards, task, resolution, evidence)?))
-    }
-
-    /// Checks where runs of a product satisfy the path formula: for certain, and perhaps.
-    pub(super) fn goals(
-        &self,
-        product: &Product,
-        [lower, upper]: [&StateSet; 2],
-        resolution: Resolution,
-    ) -> Result<(), Rejection> {
-        let conditions: Vec<_> = product.conditions.iter().map(condition).collect();
-        let (model, satisfied) = (&product.model, &product.satisfied);
-        prove_accepting(model, &conditions, (lower, satisfied), resolution.nature_maximises())?;
-        prove_nothing_missed(model, &conditions, (upper, satisfied))
-    }
-
-    fn next(&mut self) -> Result<&'a Evidence, Rejection> {
-        let missing = || Rejection::Expression { problem: "a proof is missing".to_owned() };
-        self.proofs.next().ok_or_else(missing)
-    }
-
-    fn note(&mut self, proved: ProvedBounds) -> ValueBounds {
-        self.steps += proved.steps;
-        self.rows += proved.rows;
-        ValueBounds { lower: proved.lower, upper: proved.upper }
     }
 }

@@ -1,6 +1,6 @@
 //! Evaluating expressions.
 
-use super::derivation::Checker;
+use super::checker::Checker;
 use super::{EvaluationError, Known, Numbers, Truth, Values, interval};
 use crate::certificate::Evidence;
 use crate::model::{IntervalMdp, StateSet, VariableValues};

@@ -5,6 +5,7 @@
 //! then on, rounded outwards in every operation.
 
 mod automaton;
+mod checker;
 mod cosafe;
 mod derivation;
 mod directions;
@@ -14,47 +15,26 @@ mod expression;
 mod filter;
 mod interval;
 mod numbers;
+mod omega;
 mod operator;
 mod path;
 mod product;
+mod syntax;
 mod truth;
+mod values;
 
 pub use derivation::check_derivation;
 pub use directions::direct;
 pub use error::EvaluationError;
 pub use numbers::{Known, Numbers};
 pub use truth::Truth;
+pub use values::Values;
 
-use crate::certificate::{Claim, Derivation, Evidence, FileDigest};
+use crate::certificate::{Derivation, Evidence, FileDigest};
 use crate::model::{IntervalMdp, StateId};
 use crate::property::{Compound, Nature, Verdict};
 use crate::solver::{Inexact, Policy, SolverOptions, Status, ValueBounds};
 use expression::Evaluator;
-
-/// What an expression comes to in every state.
-#[derive(Clone, Debug)]
-pub enum Values {
-    /// A formula: where it holds.
-    Truth(Truth),
-    /// A number.
-    Numbers(Numbers),
-}
-
-impl Values {
-    /// What is known of the initial states.
-    fn claim(&self, model: &IntervalMdp) -> Claim {
-        let initial = || model.initial().ones();
-        match self {
-            Self::Truth(truth) => Claim::Verdict(Verdict::in_all(initial().map(|s| truth.verdict(s)))),
-            Self::Numbers(numbers) => {
-                let all: Vec<_> = initial().map(|s| numbers.bounds(s)).collect();
-                let lower = all.iter().map(|bounds| bounds.0).fold(f64::INFINITY, f64::min);
-                let upper = all.iter().map(|bounds| bounds.1).fold(f64::NEG_INFINITY, f64::max);
-                Claim::Between(lower, upper)
-            }
-        }
-    }
-}
 
 /// An expression answered.
 #[derive(Clone, Debug)]

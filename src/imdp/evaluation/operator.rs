@@ -1,13 +1,13 @@
 //! The operators `P` and `R`.
 
 use super::expression::{Evaluator, is_zero_or_one};
-use super::path::is_path;
+use super::syntax::{is_path, number, steps};
 use super::{EvaluationError, Known, Numbers, Truth, directions};
 use crate::model::{IntervalMdp, RewardStructure};
 use crate::numeric::{Rational, to_f64};
 use crate::property::{
-    Asked, Constant, Measured, Node, NodeKind, Operator, Relation, Resolution, RewardPath, StepBound,
-    Structure, TemporalOperator, ThresholdComparison, constant,
+    Asked, Constant, Measured, NodeKind, Operator, Relation, Resolution, RewardPath, Structure,
+    TemporalOperator, ThresholdComparison, constant,
 };
 use crate::solver::{RewardQuery, Solution, Status, ValueBounds, solve_rewards};
 use crate::verify::RewardTask;
@@ -144,15 +144,6 @@ fn rank(status: Status) -> u8 {
         Status::TimeLimit => 4,
         Status::Interrupted => 5,
     }
-}
-
-/// The number of steps in `<=k` or `<k`, checked when it was read.
-pub(super) fn steps(bound: &StepBound) -> u64 {
-    (number(&bound.steps) as u64).saturating_sub(u64::from(bound.is_strict))
-}
-
-fn number(node: &Node) -> f64 {
-    constant(node).and_then(Constant::number).map_or(0.0, |value| to_f64(&value))
 }
 
 fn find<'m>(

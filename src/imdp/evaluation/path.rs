@@ -1,7 +1,7 @@
 //! The probability of a path formula.
 
 use super::expression::Evaluator;
-use super::operator::steps;
+use super::syntax::{is_path, range};
 use super::{EvaluationError, Known, Truth};
 use crate::automaton::{Ltl, LtlError};
 use crate::model::IntervalMdp;
@@ -197,15 +197,6 @@ impl Evaluator<'_> {
 /// So many steps of a bound inside of LTL are unfolded at most.
 const MOST_UNFOLDED: u64 = 256;
 
-/// The first and the last step, if there is one, at which something may happen.
-fn range(bounds: &StepBounds) -> (u64, Option<u64>) {
-    let first = bounds.lower.as_ref().map_or(0, |bound| {
-        let plain = crate::property::StepBound { is_strict: false, ..(**bound).clone() };
-        steps(&plain) + u64::from(bound.is_strict)
-    });
-    (first, bounds.upper.as_ref().map(|bound| steps(bound)))
-}
-
 fn next(formula: Ltl, steps: u64) -> Ltl {
     (0..steps).fold(formula, |formula, _| Ltl::Next(Box::new(formula)))
 }
@@ -248,14 +239,5 @@ fn until(operator: UntilOperator, bounds: &StepBounds, left: Ltl, right: Ltl) ->
             };
             (0..first).fold(inside, |formula, _| Ltl::And(vec![left.clone(), Ltl::Next(Box::new(formula))]))
         }
-    }
-}
-
-/// Whether a formula speaks of more than the present state.
-pub(super) fn is_path(node: &Node) -> bool {
-    match &node.kind {
-        NodeKind::Temporal(..) | NodeKind::Until(..) | NodeKind::Automaton(_) => true,
-        NodeKind::Operator(_) | NodeKind::Filter(_) => false,
-        kind => kind.children().into_iter().any(is_path),
     }
 }

@@ -1,14 +1,12 @@
-//! Path formulas of all kinds: a model and a deterministic automaton, step by step together.
+//! A model and a deterministic automaton, step by step together.
 
-use super::expression::Evaluator;
-use super::{EvaluationError, Known, Truth};
-use crate::automaton::{Acceptor, Automaton, Condition, Ltl};
+use super::EvaluationError;
+use crate::automaton::{Acceptor, Condition};
 use crate::model::{
     ActionNames, ChoicesBuilder, IntervalMdp, Labels, Parts, RewardStructure, RowBuffer, RowId, RowRange,
     Rows, StateId, StateSet, StateVariables, require_memory,
 };
-use crate::property::Resolution;
-use crate::solver::{Acceptance, Event, accepting_states};
+use crate::solver::{Acceptance, accepting_states};
 use std::collections::HashMap;
 
 /// What a state of the product takes in memory.
@@ -16,83 +14,6 @@ const BYTES: u64 = 160;
 
 /// How many states are made between two looks at the memory.
 const STRIDE: usize = 1 << 18;
-
-impl Evaluator<'_> {
-    /// Bounds on the probability of a formula over propositions.
-    pub(super) fn omega(
-        &mut self,
-        formula: &Ltl,
-        propositions: &[Truth],
-        resolution: Resolution,
-    ) -> Result<Known, EvaluationError> {
-        if !resolution.policy_maximises() {
-            // A policy that minimises one formula maximises its negation.
-            let negation = Ltl::Not(Box::new(formula.clone()));
-            return Ok(self.omega(&negation, propositions, resolution.flipped())?.complement());
-        }
-        self.accepted(&mut Automaton::new(formula)?, propositions, resolution)
-    }
-
-    /// Bounds on the probability of a run that is accepted; the policy maximises.
-    pub(super) fn accepted(
-        &mut self,
-        acceptor: &mut dyn Acceptor,
-        propositions: &[Truth],
-        resolution: Resolution,
-    ) -> Result<Known, EvaluationError> {
-        let letters = self.letters(propositions)?;
-        let product = Product::new(self.model, acceptor, &letters)?;
-        let all = {
-            let mut all = StateSet::with_capacity(product.model.num_states());
-            all.insert_range(..);
-            all
-        };
-        let upper_goal = product.goal(true);
-        let lower_goal = if resolution.nature_maximises() { upper_goal.clone() } else { product.goal(false) };
-        if let Some(checker) = &self.checker {
-            checker.goals(&product, [&lower_goal, &upper_goal], resolution)?;
-        }
-        let options = crate::solver::SolverOptions { policy: false, ..self.options };
-        // Where values are wanted exactly, they are those of where runs begin.
-        let exactly = self.exactly.take();
-        self.exactly = exactly.as_ref().map(|wanted| {
-            let mut starts = StateSet::with_capacity(product.model.num_states());
-            wanted.ones().for_each(|state| starts.insert(product.starts[state].index()));
-            starts
-        });
-        let until = |this: &mut Self, goal| {
-            let event = Event::Until { safe: &all, goal, steps: None };
-            this.solved((&product.model, &options), &event, 0, resolution)
-        };
-        let lower = until(self, &lower_goal);
-        let upper = if lower_goal == upper_goal { None } else { Some(until(self, &upper_goal)) };
-        self.exactly = exactly;
-        let lower = lower?;
-        let of_starts = |values: &[f64]| product.starts.iter().map(|&state| values[state.index()]).collect();
-        Ok(match upper.transpose()? {
-            None => {
-                let exact = |(state, start): (usize, &StateId)| {
-                    lower.exact.get(&(start.index())).map(|value| (state, value.clone()))
-                };
-                let exact = product.starts.iter().enumerate().filter_map(exact).collect();
-                let Known { bounds, .. } = &lower;
-                Known { exact, ..Known::within(of_starts(&bounds.lower), of_starts(&bounds.upper)) }
-            }
-            Some(upper) => Known::within(of_starts(&lower.bounds.lower), of_starts(&upper.bounds.upper)),
-        })
-    }
-
-    /// For every state, the set of the propositions that hold in it.
-    pub(super) fn letters(&self, propositions: &[Truth]) -> Result<Vec<u64>, EvaluationError> {
-        let mut letters = vec![0u64; self.model.num_states()];
-        for (index, proposition) in propositions.iter().enumerate() {
-            for state in proposition.decided()?.ones() {
-                letters[state] |= 1 << (index % 64);
-            }
-        }
-        Ok(letters)
-    }
-}
 
 /// A model and an automaton that reads the labels of its states.
 pub(super) struct Product {
@@ -265,7 +186,7 @@ impl Product {
     }
 
     /// Where the formula is satisfied almost surely by a policy that stays; `helpful` says whether nature helps.
-    fn goal(&self, helpful: bool) -> StateSet {
+    pub(super) fn goal(&self, helpful: bool) -> StateSet {
         let mut goal = accepting_states(&self.model, &self.conditions, helpful);
         goal.union_with(&self.satisfied);
         goal

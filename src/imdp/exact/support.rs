@@ -1,8 +1,7 @@
 //! What a writer of certificates needs to know exactly.
 
-use super::exact_row::ExactRow;
 use super::values::ExactValues;
-use crate::model::Row;
+use crate::model::{ExactRow, Row};
 
 /// By position: whether some distribution that attains `max_p p·V` gives the successor positive probability.
 ///

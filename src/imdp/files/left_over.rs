@@ -1,7 +1,7 @@
 //! What killed processes left behind.
 
-use super::staged::{FILES, PART, PREFIX, sync_directory};
-use std::fs::{self, File, TryLockError};
+use super::directory::{FILES, PART, PREFIX, lock, remove, sync_directory};
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -40,30 +40,12 @@ pub fn claim(directory: &Path, suffix: &str, wait: bool) -> Vec<(PathBuf, File)>
     paths.filter_map(|path| Some((path.clone(), if wait { wait_for(&path) } else { lock(&path) }?))).collect()
 }
 
-/// Locks a directory; `None` if another process has it, or the system has no such locks.
-pub(super) fn lock(path: &Path) -> Option<File> {
-    let file = File::open(path).ok()?;
-    match file.try_lock() {
-        Ok(()) => Some(file),
-        Err(TryLockError::WouldBlock | TryLockError::Error(_)) => None,
-    }
-}
-
 /// Locks a directory as soon as nobody else has it; `None` if it is gone by then.
 fn wait_for(path: &Path) -> Option<File> {
     let file = File::open(path).ok()?;
     // Where the system has no such locks, finishing is right as well: it can be done twice.
     let _ = file.lock();
     fs::symlink_metadata(path).is_ok().then_some(file)
-}
-
-/// Removes a directory with the files in it; it has no directories of ours.
-pub(super) fn remove(path: &Path) {
-    // Nobody is waiting for this to succeed.
-    for entry in fs::read_dir(path).into_iter().flatten().flatten() {
-        let _ = fs::remove_file(entry.path());
-    }
-    let _ = fs::remove_dir(path);
 }
 
 /// Moves the files of a published directory to their places.

@@ -12,6 +12,7 @@
 //! A symbolic link is followed; devices, pipes and links of the kernel to open files (`/dev/stdout`) are written
 //! through as they are.
 
+mod directory;
 mod input;
 mod interruption;
 mod left_over;
@@ -20,10 +21,11 @@ mod place;
 mod staged;
 mod steady;
 
+pub use directory::sync_directory;
 pub use input::{is_fault_of_input, open, read, read_text};
 pub use interruption::{interruption, is_interruption};
 pub use left_over::{claim, clear, settle};
 pub use outputs::Outputs;
 pub use place::resolve;
-pub use staged::{StagedDirectory, abandon_all, rename_new, sync_directory};
+pub use staged::{StagedDirectory, abandon_all, rename_new};
 pub use steady::{Snapshot, steady};

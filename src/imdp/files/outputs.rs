@@ -1,8 +1,9 @@
 //! The files that one command writes.
 
+use super::directory::{FILES, sync_directory};
 use super::left_over::finish;
 use super::place::Place;
-use super::staged::{FILES, StagedDirectory, rename_new, sync_directory};
+use super::staged::{StagedDirectory, rename_new};
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, BufWriter};

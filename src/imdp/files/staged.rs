@@ -1,5 +1,6 @@
 //! A directory in which output is put together before it appears.
 
+use super::directory::{PART, PREFIX, lock, remove};
 use super::left_over;
 use std::fs::{self, File};
 use std::io;
@@ -8,20 +9,13 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// What the names of staging directories begin with.
-pub(super) const PREFIX: &str = ".dynabs-";
-/// What the names of those end with whose content does not count yet.
-pub(super) const PART: &str = ".part";
-/// What the names of those end with whose files are on the way to their places.
-pub(super) const FILES: &str = ".files";
-
 /// The staging directories of this process whose content does not count yet.
 static PENDING: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// Removes all that this process has staged and not published; waits for what is being published.
 pub fn abandon_all() {
     for path in PENDING.lock().unwrap_or_else(PoisonError::into_inner).drain(..) {
-        left_over::remove(&path);
+        remove(&path);
     }
 }
 
@@ -46,7 +40,7 @@ impl StagedDirectory {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
                 created => created?,
             }
-            let lock = left_over::lock(&path);
+            let lock = lock(&path);
             // Whoever saw it before it was locked took it for left behind.
             if fs::symlink_metadata(&path).is_ok() {
                 PENDING.lock().unwrap_or_else(PoisonError::into_inner).push(path.clone());
@@ -87,7 +81,7 @@ impl StagedDirectory {
 
 impl Drop for StagedDirectory {
     fn drop(&mut self) {
-        left_over::remove(&self.path);
+        remove(&self.path);
         PENDING.lock().unwrap_or_else(PoisonError::into_inner).retain(|path| *path != self.path);
     }
 }
@@ -117,18 +111,4 @@ pub fn rename_new(from: &Path, to: &Path) -> io::Result<()> {
     // A link is refused where there is a file already, on every system.
     fs::hard_link(from, to)?;
     fs::remove_file(from)
-}
-
-/// Makes sure that what was created, renamed or removed in a directory is on the disk.
-///
-/// # Errors
-/// What the system says; directories that cannot be synchronised are no error.
-pub fn sync_directory(directory: &Path) -> io::Result<()> {
-    if cfg!(unix) {
-        match File::open(directory)?.sync_all() {
-            Err(error) if error.kind() == io::ErrorKind::InvalidInput => {}
-            outcome => outcome?,
-        }
-    }
-    Ok(())
 }

@@ -6,6 +6,7 @@
 
 mod choices;
 mod exact_bounds;
+mod exact_row;
 mod ids;
 mod interval_mdp;
 mod labels;
@@ -13,6 +14,8 @@ mod memory;
 mod narrow;
 mod restrict;
 mod rewards;
+mod row;
+mod row_error;
 mod row_set;
 mod rows;
 
@@ -28,5 +31,9 @@ pub use memory::{
 };
 pub use restrict::restrict;
 pub use rewards::{RewardError, RewardStructure, Rewards};
+pub use row::Row;
+pub use row_error::RowError;
 pub use row_set::{ComputedRows, RowBuffer, RowEntries, RowSet};
-pub use rows::{Row, RowError, Rows};
+pub use rows::Rows;
+
+pub(crate) use exact_row::{ExactRow, Mass, Numerators};

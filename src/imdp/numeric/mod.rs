@@ -11,6 +11,7 @@ mod rational;
 
 pub use decimal::{round_decimal_down, round_decimal_up, shortest_decimal};
 pub use exact::Exact;
+pub(crate) use rational::common_multiple;
 pub use rational::{Rational, decimal_parts, from_decimal, from_dyadic, to_f64, to_f64_down, to_f64_up};
 
 /// The unit roundoff of a double, `2⁻⁵³`: `fl(a ∘ b) = (a ∘ b)(1 + δ)` with `|δ| ≤ UNIT_ROUNDOFF`.

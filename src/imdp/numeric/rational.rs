@@ -1,6 +1,6 @@
 //! Rationals read from decimals, and their directed rounding to doubles.
 
-use num_bigint::BigInt;
+use num_bigint::{BigInt, BigUint};
 use num_traits::{Pow, ToPrimitive, Zero};
 
 /// An exact rational number.
@@ -57,6 +57,16 @@ pub fn to_f64_down(r: &Rational) -> f64 {
 /// The smallest double that is at least `r`.
 pub fn to_f64_up(r: &Rational) -> f64 {
     -to_f64_down(&-r)
+}
+
+/// The least common multiple of two denominators.
+pub(crate) fn common_multiple(a: BigUint, b: &BigUint) -> BigUint {
+    if (&a % b).is_zero() {
+        return a;
+    }
+    // `a/b` in lowest terms has the denominator `b / gcd(a, b)`.
+    let reduced = Rational::new(a.clone().into(), b.clone().into());
+    a * reduced.denom().magnitude()
 }
 
 #[cfg(test)]

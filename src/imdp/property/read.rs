@@ -3,6 +3,7 @@
 use super::document::{Inquiry, parse_document};
 use super::parser::{Parser, Result};
 use super::{Definitions, ParseError, Property, unsupported};
+use std::str::FromStr;
 
 /// Reads one property that asks for a single probability.
 ///
@@ -41,6 +42,14 @@ pub fn parse_properties(text: &str) -> std::result::Result<Vec<Property>, ParseE
         Inquiry::Compound(compound) => Err(single(&compound.to_string())),
     };
     entries.into_iter().map(single).collect()
+}
+
+impl FromStr for Property {
+    type Err = ParseError;
+
+    fn from_str(text: &str) -> std::result::Result<Self, ParseError> {
+        parse_property(text)
+    }
 }
 
 fn single(text: &str) -> ParseError {

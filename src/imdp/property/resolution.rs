@@ -2,9 +2,6 @@
 
 use std::fmt;
 
-use super::PropertyError;
-use crate::model::ModelKind;
-
 /// How the two nondeterminisms of an interval MDP are resolved: policy first, then nature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Resolution {
@@ -79,29 +76,6 @@ pub enum Optimum {
 }
 
 impl Optimum {
-    /// Who maximises and who minimises in a kind of model.
-    ///
-    /// # Errors
-    /// [`PropertyError`] if the optimum says less or more than such a model needs.
-    pub fn resolve(self, kind: ModelKind) -> Result<Resolution, PropertyError> {
-        match (self, kind) {
-            (Self::Both(resolution), ModelKind::Imdp) => Ok(resolution),
-            (Self::Only, _) => Err(PropertyError::NoDirection),
-            (Self::Min, ModelKind::Idtmc) => Ok(Resolution::Pminmin),
-            (Self::Max, ModelKind::Idtmc) => Ok(Resolution::Pmaxmax),
-            (Self::Min, ModelKind::Imdp) => {
-                Err(PropertyError::PlainOptimum { found: self, prism: "Pminmin", storm: "Pminmax" })
-            }
-            (Self::Max, ModelKind::Imdp) => {
-                Err(PropertyError::PlainOptimum { found: self, prism: "Pmaxmax", storm: "Pmaxmin" })
-            }
-            (Self::Both(found), ModelKind::Idtmc) => Err(PropertyError::NoPolicy {
-                found,
-                instead: if found.nature_maximises() { "Pmax" } else { "Pmin" },
-            }),
-        }
-    }
-
     /// The optimum called `P<suffix>`.
     pub(super) fn from_suffix(suffix: &str) -> Option<Self> {
         Some(match suffix {

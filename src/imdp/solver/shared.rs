@@ -2,8 +2,11 @@
 
 use super::query::Players;
 use super::range_optimum::RangeOptimum;
-use super::slow::Precise;
-use crate::model::{IntervalMdp, StateSet};
+use crate::model::{IntervalMdp, StateId, StateSet};
+use std::collections::BTreeMap;
+
+/// Bounds in units of `2⁻¹²⁰`, by state, where doubles do not reproduce themselves.
+pub(super) type Precise = BTreeMap<StateId, u128>;
 
 /// The bounds of the whole model, as far as they are known.
 pub(super) struct Shared<'a> {

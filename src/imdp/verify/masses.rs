@@ -2,7 +2,8 @@
 
 use super::Rejection;
 use super::one_step::ExactRows;
-use crate::exact::{ExactRow, ExactValues, Replaced};
+use crate::exact::{ExactValues, Replaced};
+use crate::model::ExactRow;
 use crate::model::{Row, RowBuffer, RowId, StateId};
 
 /// Which distributions of a row are meant.

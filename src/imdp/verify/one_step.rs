@@ -5,7 +5,7 @@ use super::bounds::Bounds;
 use super::extremum::Extremum;
 use super::side::Side;
 use super::task::Task;
-use crate::exact::ExactRow;
+use crate::model::ExactRow;
 use crate::model::{IntervalMdp, MemoryError, RowBuffer, RowId, StateId, StateSet, require_memory};
 use rayon::prelude::*;
 

@@ -3,6 +3,7 @@
 mod affine;
 mod derivative;
 mod error;
+mod functions;
 mod graph;
 mod lexer;
 mod number;

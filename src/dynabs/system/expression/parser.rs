@@ -8,38 +8,13 @@
 //! atom    = number | name | function "(" sum ("," sum)* ")" | "(" sum ")"
 //! ```
 
-use super::graph::{Function, Graph, NodeId};
+use super::functions::{CHOOSERS, FUNCTIONS, is_reserved};
+use super::graph::{Graph, NodeId};
 use super::lexer::{Placed, Token, tokens};
 use super::{ExpressionError, Scope};
 
 /// The deepest nesting of parentheses, signs and exponents.
 const MAX_DEPTH: usize = 200;
-
-/// The functions of one argument.
-const FUNCTIONS: [(&str, Function); 13] = [
-    ("sin", Function::Sin),
-    ("cos", Function::Cos),
-    ("tan", Function::Tan),
-    ("atan", Function::Atan),
-    ("asin", Function::Asin),
-    ("acos", Function::Acos),
-    ("sinh", Function::Sinh),
-    ("cosh", Function::Cosh),
-    ("tanh", Function::Tanh),
-    ("exp", Function::Exp),
-    ("ln", Function::Ln),
-    ("sqrt", Function::Sqrt),
-    ("abs", Function::Abs),
-];
-/// The functions of several arguments, with their number.
-const CHOOSERS: [(&str, usize); 3] = [("min", 2), ("max", 2), ("clip", 3)];
-
-/// Whether a name has a meaning of its own, so that nothing else can have it.
-pub(super) fn is_reserved(name: &str) -> bool {
-    name == "pi"
-        || FUNCTIONS.iter().any(|(own, _)| *own == name)
-        || CHOOSERS.iter().any(|(own, _)| *own == name)
-}
 
 /// Reads `text`, which is number `number` of the texts that places refer to.
 pub(super) fn parse(

@@ -1,7 +1,7 @@
 //! What names stand for.
 
+use super::functions::is_reserved;
 use super::graph::NodeId;
-use super::parser::is_reserved;
 use std::collections::BTreeMap;
 
 /// The names that an expression may use.

@@ -1,9 +1,9 @@
 //! What stands before the states.
 
-use super::acceptance::AcceptanceCondition;
-use super::guard::Label;
+use super::label::Label;
 use super::lexer::{Token, Tokens};
 use super::{HoaError, HoaErrorKind};
+use crate::automaton::acceptance::AcceptanceCondition;
 use std::collections::HashMap;
 
 /// More states than this are given up.

@@ -21,13 +21,10 @@
 
 mod acceptance;
 mod error;
-mod guard;
 mod header;
+mod label;
 mod lexer;
 mod read;
 
 pub use error::{HoaError, HoaErrorKind};
 pub use read::read_hoa;
-
-pub(super) use acceptance::AcceptanceCondition;
-pub(super) use guard::Guard;

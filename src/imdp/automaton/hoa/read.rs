@@ -1,11 +1,12 @@
 //! States and edges.
 
 use super::acceptance::too_many_alternatives;
-use super::guard::{Guard, Label, too_many_cubes};
 use super::header::Header;
+use super::label::{Label, too_many_cubes};
 use super::lexer::{Token, Tokens};
 use super::{HoaError, HoaErrorKind};
 use crate::automaton::deterministic::{DeterministicAutomaton, Edge};
+use crate::automaton::guard::Guard;
 
 /// Reads a deterministic automaton from the text of a file.
 ///

@@ -3,10 +3,10 @@
 use super::super::policy::NO_CHOICE;
 use super::super::query::{Direction, Players};
 use super::part::Part;
-use super::{Inexact, Work, digits};
-use crate::exact::common_multiple;
+use super::work::{Inexact, Work, digits};
 use crate::model::StateId;
 use crate::numeric::Rational;
+use crate::numeric::common_multiple;
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 

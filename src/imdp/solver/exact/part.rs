@@ -2,9 +2,10 @@
 
 use super::super::query::Direction;
 use super::super::slow::Leads;
-use super::{Inexact, Work, digits};
-use crate::exact::{ExactRow, Numerators, common_multiple};
+use super::work::{Inexact, Work, digits};
+use crate::model::{ExactRow, Numerators};
 use crate::model::{IntervalMdp, RowBuffer, RowId, StateId, StateSet};
+use crate::numeric::common_multiple;
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 

@@ -3,10 +3,10 @@
 use super::super::query::{Direction, Players};
 use super::super::slow::{Elimination, Number, Process, WaysOut, ways_out};
 use super::part::{Part, Row};
-use super::{Inexact, Work, digits};
-use crate::exact::common_multiple;
+use super::work::{Inexact, Work, digits};
 use crate::model::StateSet;
 use crate::numeric::Rational;
+use crate::numeric::common_multiple;
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 

@@ -106,7 +106,8 @@ impl Leads for FixedRow {
 mod tests {
     use super::super::fixed::to_rational;
     use super::*;
-    use crate::exact::{ExactRow, ExactValues, Nature, Replaced};
+    use crate::exact::{ExactValues, Nature, Replaced};
+    use crate::model::ExactRow;
     use crate::model::StateId;
     use crate::numeric::{Rational, from_decimal};
     use proptest::prelude::*;

@@ -28,12 +28,7 @@ use super::expectation::Bound;
 use super::guess::levels;
 use super::options::Control;
 use super::query::Direction;
-use crate::model::StateId;
 use part::Part;
-use std::collections::BTreeMap;
-
-/// Bounds in units of `2⁻¹²⁰`, by state, where doubles do not reproduce themselves.
-pub(super) type Precise = BTreeMap<StateId, u128>;
 
 impl Component<'_, '_> {
     /// Replaces the bounds by those of optimal strategies; returns whether the lower ones could be.

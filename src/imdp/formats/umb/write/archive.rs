@@ -1,9 +1,11 @@
 //! A tar archive whose members are streamed.
 
-use super::PIECE;
 use crate::files::interruption;
 use crate::progress::Progress;
 use std::io::{self, BufWriter, Write};
+
+/// Arrays are handed on in pieces of this many bytes.
+pub(super) const PIECE: usize = 1 << 18;
 
 /// The size of a block of a tar archive.
 const BLOCK: u64 = 512;

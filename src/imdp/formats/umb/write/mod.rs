@@ -12,13 +12,10 @@ use crate::formats::prism::RAISED_LOWER_BOUND;
 use crate::model::{IntervalMdp, RowId, StateId, StateSet};
 use crate::progress::Progress;
 use actions::Actions;
-use archive::TarStream;
+use archive::{PIECE, TarStream};
 use flate2::GzBuilder;
 use std::collections::HashSet;
 use std::io::{self, BufWriter, Write};
-
-/// Arrays are handed on in pieces of this many bytes.
-const PIECE: usize = 1 << 18;
 
 /// Fast: a higher level makes files a little smaller and takes several times as long.
 const LEVEL: u32 = 1;
