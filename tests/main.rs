@@ -45,6 +45,7 @@ mod solution;
 mod solver;
 mod soundness;
 mod steering;
+mod sweep;
 mod systems;
 mod tasks;
 mod type_names;

@@ -296,15 +296,12 @@ impl<'a> PacRows<'a> {
 
     /// How much may fail if the row at `origin` is made with a window.
     fn failed(&self, stencil: &Stencil, target: usize, origin: &[i32], window: usize) -> f64 {
-        let unseen = self.prepared.unseen[window];
         let hull = stencil.runs().hull();
-        let is_clean = self.ground.contains(hull, origin) && self.lost_cells.of(hull, origin) == 0;
-        let most = if is_clean {
-            unseen
-        } else {
-            let original = self.targets.original(target);
-            (unseen + self.lost.get(self.regions[original].lost, ()).upper).next_up()
-        };
+        if self.ground.contains(hull, origin) && self.lost_cells.of(hull, origin) == 0 {
+            return stencil.usual().1;
+        }
+        let lost = self.regions[self.targets.original(target)].lost;
+        let most = (self.prepared.unseen[window] + self.lost.get(lost, ()).upper).next_up();
         let most = self.room(target).map_or(most, |room| (most + room.leaving).next_up());
         round_decimal_up(most, DIGITS).min(1.0)
     }

@@ -20,6 +20,9 @@ pub(super) use rows::{Chosen, StencilRows};
 pub(super) use runs::Runs;
 use std::sync::Arc;
 
+/// Runs from this length on are copied as a whole, if all of their cells are listed.
+const WORTH_COPYING: usize = 16;
+
 /// The intervals of cells around an origin.
 #[derive(Clone, Debug)]
 pub(super) struct Stencil {
@@ -73,6 +76,11 @@ impl Stencil {
         &self.runs
     }
 
+    /// The interval that the first special state mostly has.
+    pub(super) fn usual(&self) -> (f64, f64) {
+        self.usual
+    }
+
     /// Whether these are the cells of another stencil, with lower bounds nowhere above its own; upper bounds are the same.
     pub(super) fn is_within(&self, other: &Self) -> bool {
         let (runs, others) = (&self.runs, &other.runs);
@@ -102,7 +110,8 @@ impl Stencil {
             return self.whole_row(ground, origin, special, entries);
         }
         let RowEntries { successors, lower, upper } = entries;
-        let room = self.runs.len() + 2;
+        // One more, for what is written and not listed.
+        let room = length.min(self.runs.len() + 1) + 1;
         if successors.len() < room {
             successors.resize(room, StateId(0));
             lower.resize(room, 0.0);
@@ -116,7 +125,7 @@ impl Stencil {
         }
         self.runs.for_each(ground, origin, |first, position, length| {
             let states = &ground.states[first..first + length];
-            if ground.lists_all(states) {
+            if length >= WORTH_COPYING && ground.lists_all(states) {
                 let place = end..end + length;
                 successors[place.clone()].copy_from_slice(states);
                 upper[place.clone()].copy_from_slice(&self.upper[position + 1..position + 1 + length]);

@@ -1,6 +1,6 @@
 //! One application of the Bellman operator with rewards.
 
-use super::super::expectation::{Bound, RowBlock};
+use super::super::expectation::{Bound, RowBlock, Workspace};
 use super::super::query::{Direction, Players};
 use super::costs;
 use crate::model::{IntervalMdp, RewardStructure, RowBuffer, RowId, RowSet, Rows, StateId};
@@ -22,6 +22,7 @@ pub(super) struct Operator {
     choices: Vec<Vec<Choice>>,
     rows: RowSet,
     block: RowBlock,
+    workspace: Workspace,
     /// How many states the model has; rows with rewards on branches have successors of their own beyond them.
     model_states: usize,
     /// Per extra successor, the state it stands for and what the branch to it earns.
@@ -88,8 +89,9 @@ impl Operator {
             choices.push(own);
         }
         let rows = RowSet::from(rows);
-        let block = RowBlock::new(&rows, RowId::first(rows.len()).collect());
-        Self { states, players, choices, rows, block, model_states, branches }
+        let mut workspace = Workspace::default();
+        let block = RowBlock::new(&rows, RowId::first(rows.len()).collect(), &mut workspace);
+        Self { states, players, choices, rows, block, workspace, model_states, branches }
     }
 
     /// The most that a choice and the branches behind it can earn.
