@@ -80,7 +80,7 @@ fn every_group_of_steps_ends_at_its_target() {
         let n = problem.grid().dimension();
         let still = GaussianNoise { mean: None, covariance: vec![vec![0.0; n]; n] };
         let still = Noise::Gaussian(still.distribution(n).unwrap());
-        let samples = problem.noise().samples.clone();
+        let samples = problem.noise().samples().unwrap().samples.clone();
         let noises = [
             (still, vec![vec![0.0; n]]),
             (Noise::GroupedSamples(samples.clone()), samples.iter().map(<[f64]>::to_vec).collect()),

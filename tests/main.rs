@@ -24,6 +24,7 @@ mod input_models;
 mod input_noise;
 mod inputs;
 mod intervals;
+mod known_targets;
 mod memory;
 mod native;
 mod noise_masses;

@@ -26,7 +26,7 @@ fn document(name: &str, sets: &[&String]) -> Document {
 ///
 /// `x⁺ = d + η` for any of the targets that 9 can reach from everywhere in the cell. All noise moves by whole cells, or far.
 fn truth(problem: &Problem, targets: &[f64], is_unsafe: impl Fn(usize) -> bool) -> f64 {
-    let samples = &problem.noise().samples;
+    let samples = &problem.noise().samples().unwrap().samples;
     let mut chances: BTreeMap<u64, f64> = BTreeMap::new();
     for noise in samples.iter() {
         *chances.entry(noise[0].to_bits()).or_default() += 1.0 / samples.len() as f64;

@@ -51,7 +51,7 @@ fn a_wall_between_grouped_steps_cannot_be_crossed() {
     let start: Vec<f64> = axes
         .map(|(j, axis)| imdp::numeric::to_f64(&axis.center(closed.problem.grid().coordinate(best, j))))
         .collect();
-    let noise = Noise::of(closed.problem.noise());
+    let noise = Noise::of_plant(closed.problem.noise());
     let tally = Simulation::new(&closed.problem, &closed.controller, noise, 0).tally(&start, 1, 4000, &());
     assert!(closed.controller.bound(best) > 0.9);
     assert!(
@@ -66,7 +66,7 @@ fn the_spacecraft_keeps_clear_of_the_obstacle_at_every_step() {
     assert_eq!(closed.problem.safety(), Safety::EveryStep);
     assert!(closed.answer.lower > 0.57, "{}", closed.answer.lower);
     let start = closed.problem.initial_state().unwrap();
-    let noise = Noise::of(closed.problem.noise());
+    let noise = Noise::of_plant(closed.problem.noise());
     let tally = Simulation::new(&closed.problem, &closed.controller, noise, 0).tally(start, 1, 4000, &());
     assert!(!tally.satisfaction(Safety::EveryStep, 0.01).contradicts(closed.answer.lower), "{tally:?}");
     // Without rows for actions that need room nothing is promised there.
@@ -78,7 +78,7 @@ fn the_spacecraft_keeps_clear_of_the_obstacle_at_every_step() {
 fn the_old_statement_is_on_request_and_every_run_shows_what_it_lacks() {
     let closed = Loop::new(problem("between", &["/task/check=grouped"]));
     assert!(closed.problem.safety() == Safety::GroupedInstants && closed.answer.lower > 0.99);
-    let noise = Noise::of(closed.problem.noise());
+    let noise = Noise::of_plant(closed.problem.noise());
     let tally =
         Simulation::new(&closed.problem, &closed.controller, noise, 0).tally(&[-1.05, 0.05], 1, 2000, &());
     assert_eq!((tally.satisfied, tally.unsafe_between), (0, 2000));

@@ -14,7 +14,7 @@ fn true_noise(model: &str, problem: &Problem) -> Noise {
     let diagonal: &[f64] = match model {
         _ if model.starts_with("double_integrator") => &[1.0, 1.0],
         _ if model.starts_with("spacecraft") => &[5e-4, 5e-4, 5e-8, 5e-8],
-        _ => return Noise::of(problem.noise()),
+        _ => return Noise::of_plant(problem.noise()),
     };
     let entry = |i, j| if i == j { diagonal[i] } else { 0.0 };
     let n = diagonal.len();
@@ -81,7 +81,7 @@ fn a_trajectory_is_the_run_that_was_counted() {
 #[test]
 fn unbounded_tasks_are_simulated_to_their_end() {
     let closed = Loop::of("room_temperature", &[r#"/task/horizon="infinite""#]);
-    let noise = Noise::of(closed.problem.noise());
+    let noise = Noise::of_plant(closed.problem.noise());
     let long = tally(&closed, noise.clone(), 2000);
     assert!(long.unfinished == 0 && long.reached as f64 >= 2000.0 * closed.answer.lower, "{long:?}");
     let start = closed.problem.initial_state().unwrap().to_vec();

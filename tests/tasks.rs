@@ -361,7 +361,7 @@ fn targets_can_be_asked_to_stay() {
     let bounds = [answer.lower, answer.upper];
     let claim = abstraction.guarantee.claim(&abstraction.property, &abstraction.model, bounds);
     assert!(claim.unwrap().covered);
-    let simulation = Simulation::new(&problem, &controller, Noise::of(problem.noise()), 5);
+    let simulation = Simulation::new(&problem, &controller, Noise::of_plant(problem.noise()), 5);
     let seen = simulation.tally(&[3.0], 1, 4000, &()).satisfaction(Safety::EveryStep, 1e-6);
     assert!(answer.lower > 0.5 && seen.upper >= answer.lower, "{} {seen:?}", answer.lower);
     assert!(controller.promise()[0].contains("stays in the safe region for 5 steps"));

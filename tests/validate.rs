@@ -13,11 +13,13 @@ use std::path::Path;
 #[test]
 fn fresh_samples_prove_more_than_a_coarse_abstraction() {
     let closed = Loop::of("predecessors/building_1_zone", &[]);
-    let StepNoise::Gaussian(gaussian) = &closed.problem.noise().of_one_step else { panic!("drawn noise") };
+    let StepNoise::Gaussian(gaussian) = &closed.problem.noise().samples().unwrap().of_one_step else {
+        panic!("drawn noise")
+    };
     let start = closed.problem.initial_state().unwrap();
     let per_run = samples_per_run(&closed.problem, SampleKind::Step).unwrap();
     assert_eq!(per_run, closed.problem.horizon().unwrap() * closed.problem.group_steps() as u64);
-    let noise = Noise::of(closed.problem.noise());
+    let noise = Noise::of_plant(closed.problem.noise());
     let simulation = Simulation::new(&closed.problem, &closed.controller, noise, 0);
     let bounds = (0..20).map(|seed| {
         let tally = simulation.replay(start, &gaussian.sample(3200, 1000 + seed), SampleKind::Step, per_run);
@@ -35,7 +37,7 @@ fn runs_have_their_own_samples() {
     let closed = Loop::of("room_temperature", &["/noise/gaussian/covariance=[[0.0001]]"]);
     let per_run = samples_per_run(&closed.problem, SampleKind::Step).unwrap();
     let simulation =
-        Simulation::new(&closed.problem, &closed.controller, Noise::of(closed.problem.noise()), 0);
+        Simulation::new(&closed.problem, &closed.controller, Noise::of_plant(closed.problem.noise()), 0);
     // A gust at once throws a run out of the room; the next run does not know of it.
     let mut values = vec![0.0; 3 * per_run as usize + 1];
     values[per_run as usize] = 1000.0;

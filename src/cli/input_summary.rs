@@ -214,7 +214,7 @@ pub(super) fn summary(problem: &InputProblem, abstraction: &InputAbstraction) ->
             line("unseen mass", format!("at most {:.6}", samples.unseen_mass));
             line("fixed", crate::summary::fixed_beforehand(&guarantee));
         }
-        Evidence::Known { unlisted } => {
+        Evidence::Known { unlisted, .. } => {
             let noise = |j: usize| {
                 let taps = axes[j].noise.as_ref();
                 taps.map_or("none".to_owned(), |taps| format!("{} intervals", taps.lower.len()))

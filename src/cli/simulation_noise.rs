@@ -63,7 +63,8 @@ pub(super) struct SaidOfNoise {
 /// [`CliError::Input`] if the model has none of that kind, or file or covariance are malformed.
 pub(super) fn noise(arguments: &NoiseArguments, run: &Run) -> Result<ChosenNoise, CliError> {
     let own = run.problem.noise();
-    let is_gaussian = matches!(own.of_one_step, StepNoise::Gaussian(_));
+    let samples = own.samples();
+    let is_gaussian = samples.is_some_and(|own| matches!(own.of_one_step, StepNoise::Gaussian(_)));
     let chosen = match (arguments.noise.as_deref(), &arguments.covariance) {
         (None | Some("gaussian"), Some(covariance)) => {
             let noise = given_gaussian(covariance, arguments.mean.as_deref(), run)?;
@@ -74,8 +75,11 @@ pub(super) fn noise(arguments: &NoiseArguments, run: &Run) -> Result<ChosenNoise
                 "--covariance: found --noise {other}; expected --noise gaussian"
             )));
         }
+        (None, None) if samples.is_none() => {
+            ChosenNoise::new(Noise::of_plant(own), "of the known distribution".into())
+        }
         (None | Some("gaussian"), None) if is_gaussian => {
-            ChosenNoise::new(Noise::of(own), "Gaussian, the model's".into())
+            ChosenNoise::new(Noise::of_plant(own), "Gaussian, the model's".into())
         }
         (Some("gaussian"), None) => {
             return Err(CliError::Input(
@@ -84,6 +88,11 @@ pub(super) fn noise(arguments: &NoiseArguments, run: &Run) -> Result<ChosenNoise
             ));
         }
         (None | Some("samples"), None) => {
+            let own = samples.ok_or_else(|| {
+                CliError::Input(
+                    "--noise samples: found a model whose noise is known; expected one of samples, or no --noise".into(),
+                )
+            })?;
             let noise =
                 match &own.of_one_step {
                     // Drawn once more, step by step.

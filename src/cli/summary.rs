@@ -90,6 +90,7 @@ pub(super) fn summary(manifest: &Manifest, directory: Option<&str>) -> String {
             line("unseen mass", format!("at most {:.6}", samples.unseen_mass));
             line("fixed", fixed_beforehand(&manifest.guarantee));
         }
+        (None, Some(_)) => line("intervals", "enclose the masses of the known distribution".into()),
         _ => line("intervals", "those of the published tool: for comparison, not a guarantee".into()),
     }
     if manifest.group_steps > 1 {

@@ -92,7 +92,7 @@ fn violations(problem: &Problem, abstraction: &Abstraction, truths: &[Truth], le
 
 /// Whether some two-sided interval at level `β` of its own excludes the probability of a cell.
 fn one_by_one(problem: &Problem, abstraction: &Abstraction, truths: &[Truth], beta: f64) -> bool {
-    let samples = problem.noise().samples.len() as u64;
+    let samples = problem.noise().samples().unwrap().samples.len() as u64;
     truths.iter().enumerate().any(|(target, truth)| {
         let mut point = [0.0; 2];
         abstraction.targets.point(target, &mut point);
@@ -106,7 +106,7 @@ fn one_by_one(problem: &Problem, abstraction: &Abstraction, truths: &[Truth], be
 fn counts(problem: &Problem, point: [f64; 2]) -> Vec<u64> {
     let grid = problem.grid();
     let mut counts = vec![0; grid.num_cells() as usize];
-    for sample in problem.noise().samples.iter() {
+    for sample in problem.noise().samples().unwrap().samples.iter() {
         let coordinates: Option<Vec<u32>> = (grid.axes().iter().enumerate())
             .map(|(j, axis)| {
                 let position = (point[j] + sample[j] - to_f64(axis.lower())) / to_f64(axis.width());

@@ -92,3 +92,34 @@ fn rewards_survive_every_format_that_holds_them() {
     let text = check(&["convert", &at("m.pexp"), &at("f.txt")]);
     assert!(text.contains("the rewards \"time\", \"energy\", \"none\" are not written"), "{text}");
 }
+
+/// Half of the time 4 are earned on the way to where nothing is: `V = 2 + γ V/2`.
+#[test]
+fn rewards_of_branches_are_earned_today() {
+    let text = "# Transitions (IMDP)\n2 2 3\n0 0 0 [0.5,0.5]\n0 0 1 [0.5,0.5]\n1 0 1 1\n# Labels\n0=\"init\"\n0: 0\n\
+        # Reward structure \"r\"\n# Transition rewards\n2 2 1\n0 0 1 4\n";
+    let scratch = tempfile::tempdir().unwrap();
+    let path = scratch.path().join("m.pexp");
+    std::fs::write(&path, text).unwrap();
+    let path = path.to_str().unwrap();
+    let values = |options: &[&str]| {
+        let text = check(&[&["solve", path, "--json"], options].concat());
+        let results: serde_json::Value = serde_json::from_str(&text).unwrap();
+        ["lower", "upper"].map(|side| results["results"][0][side].as_f64().unwrap())
+    };
+    for (asked, expected) in [
+        ("C<=1, discount=0.5", 2.0),
+        ("C<=2, discount=0.5", 2.5),
+        ("C<=3, discount=0.5", 2.625),
+        ("C, discount=0.5", 8.0 / 3.0),
+        ("C<=2", 3.0),
+    ] {
+        let property = format!("R{{\"r\"}}maxmin=? [ {asked} ]");
+        let [lower, upper] = values(&["--property", &property]);
+        assert!(lower <= expected && expected <= upper, "{property}: [{lower}, {upper}]");
+        assert!(upper - lower < 1e-5, "{property}: [{lower}, {upper}]");
+        let certificate = scratch.path().join("c").to_str().unwrap().to_owned();
+        check(&["solve", path, "--property", &property, "--certificate", &certificate]);
+        check(&["verify", &certificate, path]);
+    }
+}

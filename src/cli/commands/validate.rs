@@ -119,7 +119,7 @@ pub fn run(arguments: &ValidateArguments) -> Result<ExitCode, CliError> {
                 .into(),
         ));
     }
-    let simulation = Simulation::new(problem, &controller, Noise::of(problem.noise()), 0);
+    let simulation = Simulation::new(problem, &controller, Noise::of_plant(problem.noise()), 0);
     let tally = simulation.replay(&start, &samples, of, per_run);
     let satisfied = match safety {
         Safety::EveryStep => tally.satisfied,
@@ -152,7 +152,7 @@ fn fresh(path: &Path, problem: &Problem, of: SampleKind) -> Result<NoiseSamples,
     let text = files::read_text(path).map_err(|error| CliError::reading(path, &error))?;
     let samples = parse_csv(&text, problem.grid().dimension())
         .map_err(|error| CliError::Input(format!("{shown}: {error}")))?;
-    let own = problem.noise();
+    let Some(own) = problem.noise().samples() else { return Ok(samples) };
     let used = match (&own.of_one_step, of) {
         (StepNoise::Samples(used), SampleKind::Step) => used,
         (StepNoise::Gaussian(_), SampleKind::Step) => return Ok(samples),

@@ -8,30 +8,33 @@ use super::pac::Prepared;
 use super::steering::Steering;
 use super::windows::Windows;
 use crate::Warning;
-use crate::problem::{Probabilities, Problem};
+use crate::noise::known::Distribution;
+use crate::problem::{Knowledge, Problem, SampledNoise};
 use imdp::progress::Progress;
 
 /// All that is known before the choices of the model are.
 pub(super) struct Base<'a> {
     pub(super) placements: TargetPlacements<'a>,
-    pub(super) intervals: Intervals,
+    pub(super) intervals: Intervals<'a>,
     pub(super) enabling: Enabling,
 }
 
 /// How intervals are to be computed.
-pub(super) enum Intervals {
+pub(super) enum Intervals<'a> {
     /// Jointly valid, with these levels and windows.
-    Pac(Box<Prepared>),
+    Pac(&'a SampledNoise, Box<Prepared>),
+    /// Of the masses of known distributions.
+    Known(&'a [Option<Distribution>]),
     /// Those of the published tool, each with this failure probability.
-    Reference(f64),
+    Reference(&'a SampledNoise, f64),
 }
 
-impl Intervals {
+impl Intervals<'_> {
     /// The windows that rows are made with; none in `reference` mode.
     fn windows(&self) -> Option<&Windows> {
         match self {
-            Self::Pac(prepared) => Some(prepared.windows()),
-            Self::Reference(_) => None,
+            Self::Pac(_, prepared) => Some(prepared.windows()),
+            Self::Known(_) | Self::Reference(..) => None,
         }
     }
 
@@ -43,22 +46,26 @@ impl Intervals {
 
 impl<'a> Base<'a> {
     pub(super) fn new(
-        problem: &Problem,
+        problem: &'a Problem,
         steering: &'a Steering,
         progress: &dyn Progress,
     ) -> Result<Self, AbstractionError> {
         let (law, targets) = (&steering.law, &steering.targets);
-        let is_pac = matches!(problem.probabilities(), Probabilities::Pac { .. });
-        let tolerance = is_pac.then(|| law.steering_error(&steering.extent));
+        let is_exact = matches!(problem.knowledge(), Knowledge::Published { .. });
+        let tolerance = (!is_exact).then(|| law.steering_error(&steering.extent));
         let placements = TargetPlacements::new(problem.grid(), targets, tolerance);
         let hazards = Hazards::in_between(problem);
-        let intervals = match problem.probabilities() {
-            Probabilities::Pac { beta, sweep, discard } => {
-                let statement = (beta, *sweep, *discard as usize);
-                let prepared = Prepared::new(problem, statement, targets, &placements, hazards.as_ref())?;
-                Intervals::Pac(Box::new(prepared))
+        let intervals = match problem.knowledge() {
+            Knowledge::Samples { noise, beta, sweep, discard } => {
+                let statement = (beta, sweep, discard as usize);
+                let prepared =
+                    Prepared::new((problem, noise), statement, targets, &placements, hazards.as_ref())?;
+                Intervals::Pac(noise, Box::new(prepared))
             }
-            Probabilities::Reference { beta_per_interval } => Intervals::Reference(*beta_per_interval),
+            Knowledge::Distribution(components) => Intervals::Known(components),
+            Knowledge::Published { noise, beta_per_interval } => {
+                Intervals::Reference(noise, beta_per_interval)
+            }
         };
         let hazards = hazards.as_ref().zip(intervals.windows()).map(|(hazards, windows)| {
             let cells = placements.shared().and_then(|placement| windows.cells(placement).into_iter().next());

@@ -8,11 +8,11 @@ use super::pac::{PacRows, Preference, Worth};
 use super::states::{FAILED, REACHED, StateSpace, labels};
 use super::steering::Steering;
 use super::targets::Targets;
-use super::{AbstractionError, Footprint, reference};
+use super::{AbstractionError, Footprint, known, reference};
 use crate::Warning;
 use crate::guarantee::{Event, Evidence, Guarantee};
 use crate::partition::{CellId, CellKind, Grid};
-use crate::problem::{Probabilities, Problem};
+use crate::problem::{Knowledge, Problem};
 use crate::system::FeedbackLaw;
 use crate::task::Aim;
 use imdp::model::{
@@ -87,8 +87,8 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
     let blocked = states.select(|state| is_blocked(problem, &states, &choices, state));
     clock.lap("choices");
 
-    let is_pac = matches!(intervals, Intervals::Pac(_));
-    let (reached, failed) = outcome_states(problem, &states, &blocked, is_pac);
+    let is_published = matches!(intervals, Intervals::Reference(..));
+    let (reached, failed) = outcome_states(problem, &states, &blocked, is_published);
     let property = task_property(problem);
     let model_of = |rows: RowSet| -> Result<IntervalMdp, ImdpError> {
         IntervalMdp::new(Parts {
@@ -103,14 +103,29 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
     };
     let contradiction = intervals.contradiction();
     let (rows, evidence) = match intervals {
-        Intervals::Reference(beta_per_interval) => {
-            let rows = reference::build(problem, beta_per_interval, targets, placements, &states, progress)?;
+        Intervals::Reference(noise, beta_per_interval) => {
+            let rows = reference::build(
+                (problem, noise),
+                beta_per_interval,
+                targets,
+                placements,
+                &states,
+                progress,
+            )?;
             clock.lap("rows");
             (rows, Evidence::Published { beta_per_interval })
         }
-        Intervals::Pac(prepared) => {
+        Intervals::Known(components) => {
             let outcomes = Outcomes::new(problem.labels(), |cell| enabling.is_idle(cell));
-            let pac = PacRows::new(problem, *prepared, &enabling, placements, &states, &outcomes)?;
+            let tolerance = steering.law.steering_error(&steering.extent);
+            let steered = (targets, &tolerance[..]);
+            let (rows, unlisted) = known::build(problem, components, steered, &states, &outcomes, progress)?;
+            clock.lap("rows");
+            (rows, Evidence::Known { unlisted, both_sides: false })
+        }
+        Intervals::Pac(noise, prepared) => {
+            let outcomes = Outcomes::new(problem.labels(), |cell| enabling.is_idle(cell));
+            let pac = PacRows::new((problem, noise), *prepared, &enabling, placements, &states, &outcomes)?;
             let rows = pac.rows(Preference::LeastFailing, "rows", progress);
             clock.lap("rows");
             let values = scout(&model_of(rows.clone())?, &property)?;
@@ -192,9 +207,9 @@ impl Abstraction {
 }
 
 fn state_space(problem: &Problem) -> StateSpace {
-    match problem.probabilities() {
-        Probabilities::Pac { .. } => StateSpace::merged(problem.labels()),
-        Probabilities::Reference { .. } => StateSpace::complete(problem.grid()),
+    match problem.knowledge() {
+        Knowledge::Samples { .. } | Knowledge::Distribution(_) => StateSpace::merged(problem.labels()),
+        Knowledge::Published { .. } => StateSpace::complete(problem.grid()),
     }
 }
 
@@ -224,7 +239,7 @@ fn outcome_states(
     problem: &Problem,
     states: &StateSpace,
     blocked: &StateSet,
-    is_pac: bool,
+    is_published: bool,
 ) -> (StateSet, StateSet) {
     let of_kind = |kind, heads: &[StateId]| {
         states.select(|state| match states.cell(state) {
@@ -232,13 +247,13 @@ fn outcome_states(
             Some(cell) => problem.labels().kind(cell) == kind,
         })
     };
-    if is_pac {
+    if is_published {
+        (of_kind(CellKind::Goal, &[StateId(2)]), of_kind(CellKind::Unsafe, &[StateId(0), StateId(1)]))
+    } else {
         // A run that starts in a cell in which nothing is enabled is over.
         let mut failed = of_kind(CellKind::Unsafe, &[FAILED]);
         failed.union_with(blocked);
         (of_kind(CellKind::Goal, &[REACHED]), failed)
-    } else {
-        (of_kind(CellKind::Goal, &[StateId(2)]), of_kind(CellKind::Unsafe, &[StateId(0), StateId(1)]))
     }
 }
 

@@ -1,9 +1,10 @@
 //! Which actions are enabled in which cells: a half-space test, scanned in lines.
 
 use super::Targets;
+use super::scan::Scan;
 use crate::partition::{CellId, Grid};
 use crate::system::SteeringConstraint;
-use imdp::model::{RowId, RowRange};
+use imdp::model::RowRange;
 use imdp::progress::Progress;
 use rayon::prelude::*;
 
@@ -58,9 +59,9 @@ pub(super) fn enabled_around(
     let scan = Scan::new(targets, constraints);
     let of_task = |chunk: &[CellId]| {
         let mut found = EnabledActions::default();
-        let mut levels = scan.levels();
+        let (mut slack, mut levels) = (vec![0.0; constraints.len()], scan.levels());
         for &cell in chunk {
-            for (slack, constraint) in levels[0].slack.iter_mut().zip(constraints) {
+            for (slack, constraint) in slack.iter_mut().zip(constraints) {
                 *slack = constraint.bound;
                 for (j, gamma) in constraint.state.iter().enumerate() {
                     let center = centers[j][grid.coordinate(cell, j) as usize];
@@ -68,7 +69,7 @@ pub(super) fn enabled_around(
                 }
             }
             let before = found.ranges.len();
-            scan.run(targets, &mut levels, &mut found.ranges);
+            scan.run(targets, &slack, &mut levels, &mut found.ranges);
             found.ranges_per_cell.push((found.ranges.len() - before) as u32);
         }
         progress.advance(chunk.len() as u64);
@@ -89,204 +90,6 @@ impl EnabledActions {
     pub(super) fn append(&mut self, part: Self) {
         self.ranges_per_cell.extend(part.ranges_per_cell);
         self.ranges.extend(part.ranges);
-    }
-}
-
-/// The scan over target points, prepared for one set of constraints.
-struct Scan<'a> {
-    constraints: &'a [SteeringConstraint],
-    /// Per dimension `k` and constraint, the least that dimensions after `k` can contribute to `α·d`,
-    least_after: Vec<Vec<f64>>,
-    /// the most,
-    most_after: Vec<Vec<f64>>,
-    /// the most that dimensions from `k` on can,
-    most_from: Vec<Vec<f64>>,
-    /// and a bound on `|α·d|` over dimensions from `k` on.
-    magnitudes: Vec<Vec<f64>>,
-    /// By how much more than nothing there must be room, in terms of what is added up, for rounding not to matter.
-    spare: f64,
-}
-
-/// What the coordinates of the dimensions before one leave to it.
-#[derive(Clone)]
-struct Level {
-    /// Per constraint, what is left of its bound.
-    slack: Vec<f64>,
-    /// The constraints that some target may still violate.
-    active: Vec<usize>,
-}
-
-impl<'a> Scan<'a> {
-    fn new(targets: &Targets, constraints: &'a [SteeringConstraint]) -> Self {
-        let axes = targets.axes().unwrap_or_default();
-        let zero = vec![vec![0.0; constraints.len()]; axes.len()];
-        let mut scan = Self {
-            constraints,
-            least_after: zero.clone(),
-            most_after: zero.clone(),
-            most_from: zero.clone(),
-            magnitudes: zero,
-            spare: 16.0 * (axes.len() + 1) as f64 * f64::EPSILON,
-        };
-        for k in (0..axes.len()).rev() {
-            let ends = [axes[k][0], axes[k][axes[k].len() - 1]];
-            for (i, constraint) in constraints.iter().enumerate() {
-                let [a, b] = ends.map(|x| constraint.target[k] * x);
-                let after = scan.magnitudes.get(k + 1).map_or(0.0, |after| after[i]);
-                scan.magnitudes[k][i] = after + a.abs().max(b.abs());
-                scan.most_from[k][i] = scan.most_after[k][i] + a.max(b);
-                if k > 0 {
-                    scan.least_after[k - 1][i] = scan.least_after[k][i] + a.min(b);
-                    scan.most_after[k - 1][i] = scan.most_from[k][i];
-                }
-            }
-        }
-        scan
-    }
-
-    /// Room for the scan of one cell after the other.
-    fn levels(&self) -> Vec<Level> {
-        vec![
-            Level { slack: vec![0.0; self.constraints.len()], active: vec![] };
-            self.least_after.len().max(1)
-        ]
-    }
-
-    /// The targets that leave room in all constraints; `levels[0].slack` is what the cell leaves.
-    fn run(&self, targets: &Targets, levels: &mut [Level], ranges: &mut Vec<RowRange>) {
-        let mut found = Found { start: ranges.len(), ranges };
-        match targets.axes() {
-            Some(axes) => {
-                levels[0].active.clear();
-                levels[0].active.extend(0..self.constraints.len());
-                self.lattice(axes, 0, 0, levels, &mut found);
-            }
-            None => self.list(targets, &levels[0].slack, &mut found),
-        }
-    }
-
-    /// Looks for the coordinates of dimension `k`, then of those after it.
-    fn lattice(&self, axes: &[Vec<f64>], k: usize, base: usize, levels: &mut [Level], found: &mut Found<'_>) {
-        let Some((Level { slack, active }, deeper)) = levels.split_first_mut() else { return };
-        // Where there is room for whatever comes after, with more than rounding to spare, it need not be looked at.
-        let spare = |i: usize| self.spare * (slack[i].abs() + self.magnitudes[k][i]);
-        active.retain(|&i| {
-            let room = slack[i] - self.most_from[k][i] - spare(i);
-            room < 0.0 || room.is_nan()
-        });
-        let axis = &axes[k];
-        let least = |i: usize| slack[i] - self.least_after[k][i];
-        let Some((first, last)) = self.feasible(axis, k, active, least) else { return };
-        let base = base * axis.len();
-        if deeper.is_empty() {
-            return found.push(base + first, base + last);
-        }
-        let most = |i: usize| slack[i] - self.most_after[k][i] - spare(i);
-        let whole = self.feasible(axis, k, active, most);
-        let behind: usize = axes[k + 1..].iter().map(Vec::len).product();
-        for (i, &x) in axis.iter().enumerate().take(last + 1).skip(first) {
-            if let Some((first, last)) = whole.filter(|&(first, last)| first <= i && i <= last) {
-                if i == first {
-                    found.push((base + first) * behind, (base + last + 1) * behind - 1);
-                }
-                continue;
-            }
-            let next = &mut deeper[0];
-            next.active.clone_from(active);
-            for &i in &*active {
-                next.slack[i] = slack[i] - self.constraints[i].target[k] * x;
-            }
-            self.lattice(axes, k + 1, base + i, deeper, found);
-        }
-    }
-
-    /// The indices along dimension `k` for which there is room in these constraints, as an inclusive range.
-    fn feasible(
-        &self,
-        axis: &[f64],
-        k: usize,
-        constraints: &[usize],
-        room: impl Fn(usize) -> f64,
-    ) -> Option<(usize, usize)> {
-        let (mut first, mut last) = (0usize, axis.len() - 1);
-        let spacing = if axis.len() > 1 { (axis[last] - axis[0]) / last as f64 } else { 1.0 };
-        for &i in constraints {
-            let alpha = self.constraints[i].target[k];
-            let room = room(i);
-            // Monotone in x even in floating point, so the feasible indices are a range.
-            let fits = |index: usize| alpha * axis[index] <= room;
-            // No number, or less than any: a sum that overflowed decides for nobody.
-            if room.is_nan() || room == f64::NEG_INFINITY {
-                return None;
-            }
-            if alpha == 0.0 {
-                if room < 0.0 {
-                    return None;
-                }
-                continue;
-            }
-            // Where both ends fit, so does everything between them.
-            if fits(first) && fits(last) {
-                continue;
-            }
-            let guess = ((room / alpha - axis[0]) / spacing).clamp(first as f64, last as f64) as usize;
-            if alpha > 0.0 {
-                let mut end = guess;
-                while end < last && fits(end + 1) {
-                    end += 1;
-                }
-                while !fits(end) {
-                    if end == first {
-                        return None;
-                    }
-                    end -= 1;
-                }
-                last = end;
-            } else {
-                let mut start = guess;
-                while start > first && fits(start - 1) {
-                    start -= 1;
-                }
-                while !fits(start) {
-                    if start == last {
-                        return None;
-                    }
-                    start += 1;
-                }
-                first = start;
-            }
-        }
-        Some((first, last))
-    }
-
-    fn list(&self, targets: &Targets, slack: &[f64], found: &mut Found<'_>) {
-        let mut point = vec![0.0; targets.dimension()];
-        for target in 0..targets.len() {
-            targets.point(target, &mut point);
-            let enabled = self.constraints.iter().zip(slack).all(|(constraint, &slack)| {
-                constraint.target.iter().zip(&point).fold(slack, |rest, (alpha, x)| rest - alpha * x) >= 0.0
-            });
-            if enabled {
-                found.push(target, target);
-            }
-        }
-    }
-}
-
-/// The ranges of one cell, behind those of others.
-struct Found<'a> {
-    start: usize,
-    ranges: &'a mut Vec<RowRange>,
-}
-
-impl Found<'_> {
-    /// Adds the rows of a range of targets, merged with what they continue.
-    fn push(&mut self, first: usize, last: usize) {
-        let (first, last) = (RowId::from_index(first), RowId::from_index(last));
-        match self.ranges[self.start..].last_mut() {
-            Some(previous) if previous.last.next() == first => previous.last = last,
-            _ => self.ranges.push(RowRange { first, last }),
-        }
     }
 }
 

@@ -149,7 +149,10 @@ fn bytes_of_rows(problem: &Problem, targets: &Targets, count: u64) -> u64 {
 /// How many entries the rows of so many targets have at most: the cells in a box around all samples, wherever a target sits, and
 /// two for what is not listed cell by cell.
 fn entries(problem: &Problem, targets: u64) -> u64 {
-    let samples = &problem.noise().samples;
+    let Some(noise) = problem.noise().samples() else {
+        return targets.saturating_mul(u64::from(problem.grid().num_cells()) + 2);
+    };
+    let samples = &noise.samples;
     let along = problem.grid().axes().iter().enumerate().map(|(j, axis)| {
         let width = to_f64(axis.width());
         let lowest = samples.iter().map(|sample| sample[j] / width).fold(0.0, f64::min);

@@ -2,7 +2,7 @@
 
 use super::room::{RUNGS, Room};
 use crate::partition::Region;
-use crate::problem::{Probabilities, Problem};
+use crate::problem::{Knowledge, Problem};
 use crate::task::Safety;
 use imdp::numeric::{Rational, to_f64_down, to_f64_up};
 
@@ -27,7 +27,7 @@ impl Hazards {
     pub(super) fn in_between(problem: &Problem) -> Option<Self> {
         let axes = problem.grid().axes();
         let outside = problem.outside_is_unsafe();
-        let is_pac = matches!(problem.probabilities(), Probabilities::Pac { .. });
+        let is_pac = matches!(problem.knowledge(), Knowledge::Samples { .. });
         let anywhere = !problem.unsafe_regions().is_empty() || outside;
         if !(is_pac && anywhere && problem.group_steps() > 1 && problem.safety() == Safety::EveryStep) {
             return None;

@@ -14,7 +14,7 @@ use super::states::StateSpace;
 use super::stencil::{Chosen, Ground, Runs, Special, Stencil, StencilRows};
 use super::targets::Targets;
 use crate::memory::TooLarge;
-use crate::problem::Problem;
+use crate::problem::{Problem, SampledNoise};
 use crate::statistics::ReferenceIntervals;
 use imdp::model::{RowBuffer, RowSet};
 use imdp::progress::Progress;
@@ -24,7 +24,7 @@ use std::sync::Arc;
 
 /// One row per target.
 pub(super) fn build(
-    problem: &Problem,
+    (problem, noise): (&Problem, &SampledNoise),
     beta_per_interval: f64,
     targets: &Targets,
     placements: TargetPlacements<'_>,
@@ -32,7 +32,7 @@ pub(super) fn build(
     progress: &dyn Progress,
 ) -> Result<RowSet, TooLarge> {
     let grid = problem.grid();
-    let landings = ActionCounts::new(&problem.noise().samples, placements);
+    let landings = ActionCounts::new(&noise.samples, placements);
     if landings.shared().is_none() {
         need_of_rows(problem, targets.len() as u64 * u64::from(grid.num_cells())).check()?;
     }
@@ -52,7 +52,7 @@ pub(super) fn build(
     };
     let inside: Vec<(u32, u32)> = (0..targets.len()).into_par_iter().map_init(Vec::new, inside).collect();
 
-    let intervals = ReferenceIntervals::new(problem.noise().samples.len() as u64, beta_per_interval);
+    let intervals = ReferenceIntervals::new(noise.samples.len() as u64, beta_per_interval);
     let of_cells = landings.distinct_counts(targets, grid);
     let of_cells = CountTable::new(of_cells.iter().map(|count| count.certain[0]), |k| intervals.of_cell(k));
     let of_outside = CountTable::new(inside.iter().map(|(samples, _)| *samples), |k| intervals.of_outside(k));

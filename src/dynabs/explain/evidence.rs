@@ -15,8 +15,9 @@ const FACTORS: [f64; 6] = [0.7, 0.5, 0.35, 0.25, 0.1, 0.05];
 const MOST_ENTRIES: usize = 1 << 22;
 
 /// The value with probabilities in the middle of their intervals, and the number of samples that would bring the bound
-/// near to it; nothing if the model is too large to be narrowed, or if the value is the bound.
+/// near to it; nothing if there are none, if the model is too large to be narrowed, or if the value is the bound.
 pub(super) fn weigh(problem: &Problem, abstraction: &Abstraction, answer: &Answer) -> Option<Reason> {
+    let samples = problem.noise().samples()?.samples.len();
     let model = &abstraction.model;
     if model.rows().num_entries() > MOST_ENTRIES {
         return None;
@@ -32,7 +33,6 @@ pub(super) fn weigh(problem: &Problem, abstraction: &Abstraction, answer: &Answe
     let enough = FACTORS.into_iter().find(|&factor| {
         model.narrowed(factor).ok().and_then(|model| value(&model)).is_some_and(|value| exact - value < NEAR)
     });
-    let samples = problem.noise().samples.len();
     // Intervals narrow like one over the root of the number of samples.
     let needed = enough.map(|factor| (samples as f64 / (factor * factor)).ceil() as u64);
     Some(Reason::Samples { exact, samples, needed })

@@ -2,6 +2,7 @@
 
 use super::{Loss, Reason, Spread};
 use crate::controller::{Controller, End, Noise, Simulation};
+use crate::partition::GridAxis;
 use crate::problem::Problem;
 use imdp::numeric::to_f64;
 use imdp::progress::Progress;
@@ -21,7 +22,7 @@ pub(super) fn simulate(
     progress: &dyn Progress,
 ) -> Option<Reason> {
     let start = problem.initial_state()?;
-    let simulation = Simulation::new(problem, controller, Noise::of(problem.noise()), MOST_STEPS);
+    let simulation = Simulation::new(problem, controller, Noise::of_plant(problem.noise()), MOST_STEPS);
     progress.start("runs to explain", RUNS);
     let mut ends: BTreeMap<String, u64> = BTreeMap::new();
     let mut good = 0;
@@ -71,16 +72,12 @@ fn face(problem: &Problem, x: &[f64]) -> String {
     )
 }
 
-/// The standard deviation of the noise of one grouped step, per dimension, in cells.
+/// About the standard deviation of the noise of one grouped step, per dimension, in cells.
 pub(super) fn spreads(problem: &Problem) -> Vec<Spread> {
-    let samples = &problem.noise().samples;
-    let count = samples.len().max(1) as f64;
-    let widths = problem.grid().widths();
-    (0..samples.dimension())
-        .map(|j| {
-            let mean = samples.iter().map(|sample| sample[j]).sum::<f64>() / count;
-            let variance = samples.iter().map(|sample| (sample[j] - mean).powi(2)).sum::<f64>() / count;
-            Spread { deviation: variance.sqrt() / widths[j], cells: problem.grid().axes()[j].cells() }
-        })
-        .collect()
+    let axes = problem.grid().axes().iter().zip(problem.grid().widths());
+    let spread = |(deviation, (axis, width)): (f64, (&GridAxis, f64))| Spread {
+        deviation: deviation / width,
+        cells: axis.cells(),
+    };
+    problem.noise().spread().into_iter().zip(axes).map(spread).collect()
 }

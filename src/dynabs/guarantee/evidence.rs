@@ -14,6 +14,9 @@ pub enum Evidence {
     Known {
         /// The most mass of a component of the noise that is not listed and may do anything.
         unlisted: f64,
+        /// Whether bounds from above are claims too: not where what is not listed counts as failed.
+        #[serde(default = "claimed")]
+        both_sides: bool,
     },
     /// The published tool's formulas, which prove nothing.
     Published {
@@ -45,4 +48,9 @@ impl SampleEvidence {
     pub fn are_independent(&self) -> bool {
         matches!(self.components, Some(Components::Intervals | Components::Bands))
     }
+}
+
+/// What manifests that do not say it mean.
+fn claimed() -> bool {
+    true
 }

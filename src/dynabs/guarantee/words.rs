@@ -150,10 +150,11 @@ impl Guarantee {
     /// Which numbers about the model are claims about the system.
     pub fn covers(&self) -> &'static str {
         match self.evidence {
-            Evidence::Samples(SampleEvidence { components: Some(_), .. }) | Evidence::Known { .. } => {
+            Evidence::Samples(SampleEvidence { components: Some(_), .. })
+            | Evidence::Known { both_sides: true, .. } => {
                 "lower bounds (Pmaxmin) and upper bounds (Pmaxmax) of the task: what no controller with these inputs exceeds"
             }
-            Evidence::Samples(_) => {
+            Evidence::Samples(_) | Evidence::Known { both_sides: false, .. } => {
                 "lower bounds (Pmaxmin, Pminmin) of formulas that are false from \"failed\" on, and upper bounds (Pminmax, \
                  Pmaxmax) of formulas that are true from \"failed\" on; in both cases only if \"reached\" decides the formula \
                  by its meaning: a run ends there, and what the model does afterwards, or its variables there, mean nothing"

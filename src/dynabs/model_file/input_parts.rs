@@ -1,8 +1,7 @@
 //! From the fields of a model file to the parts of a problem whose actions are inputs.
 
 use super::fields::{
-    CostSpec, FeedbackSpec, GaussianSpec, IndependentSpec, LqrSpec, ModelFile, NoiseSpec, ProbabilitiesSpec,
-    TargetsSpec,
+    CostSpec, FeedbackSpec, IndependentSpec, LqrSpec, ModelFile, NoiseSpec, ProbabilitiesSpec, TargetsSpec,
 };
 use super::given::given;
 use super::parts::{self, input_set, partition, probabilities};
@@ -10,8 +9,8 @@ use super::set_fields::SetSpec;
 use super::task_parts::task;
 use crate::Diagnostic;
 use crate::problem::{
-    Components, CostParts, FeedbackChoice, GaussianNoise, InputChoice, InputNoiseParts, InputParts, InputSet,
-    LqrWeights,
+    Components, CostParts, FeedbackChoice, InputChoice, InputNoiseParts, InputParts, InputSet, LqrWeights,
+    Probabilities,
 };
 use std::path::Path;
 
@@ -78,31 +77,10 @@ fn noise(
         Some(IndependentSpec::Intervals) => Components::Intervals,
         Some(IndependentSpec::Bands) => Components::Bands,
     };
-    match spec {
-        NoiseSpec {
-            components: Some(components),
-            samples: None,
-            gaussian: None,
-            count: None,
-            seed: None,
-            ..
-        } => Ok(InputNoiseParts::Components(components)),
-        NoiseSpec {
-            gaussian: Some(gaussian),
-            components: None,
-            samples: None,
-            count: None,
-            seed: None,
-            ..
-        } => {
-            let GaussianSpec { mean, covariance } = gaussian;
-            Ok(InputNoiseParts::Gaussian(GaussianNoise { mean, covariance }))
-        }
-        spec => {
-            let source = parts::noise(NoiseSpec { independent: None, ..spec }, directory)?;
-            Ok(InputNoiseParts::Sampled { source, components, probabilities: probabilities(asked)? })
-        }
-    }
+    let source = parts::noise(NoiseSpec { independent: None, ..spec }, directory)?;
+    // Where the noise is known, nothing is asked of samples.
+    let probabilities = if is_sampled { probabilities(asked)? } else { Probabilities::default() };
+    Ok(InputNoiseParts { source, components, probabilities })
 }
 
 fn feedback(spec: Option<FeedbackSpec>) -> Result<FeedbackChoice, Diagnostic> {

@@ -132,16 +132,33 @@ pub(super) fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Di
             samples: None,
             gaussian: Some(GaussianSpec { mean, covariance }),
             components: None,
-            count,
+            count: Some(count),
             seed,
             independent: None,
         } => {
-            let count = count
-                .ok_or_else(|| Diagnostic::at("/noise/count", "nothing", "the number of samples to draw"))?;
             let distribution = GaussianNoise { mean, covariance };
             Ok(DrawnNoise { distribution, count, seed: seed.unwrap_or(0) }.into())
         }
+        NoiseSpec {
+            samples: None,
+            gaussian: Some(GaussianSpec { mean, covariance }),
+            components: None,
+            count: None,
+            seed: None,
+            independent: None,
+        } => Ok(NoiseSource::Gaussian(GaussianNoise { mean, covariance })),
+        NoiseSpec {
+            samples: None,
+            gaussian: None,
+            components: Some(components),
+            count: None,
+            seed: None,
+            independent: None,
+        } => Ok(NoiseSource::Components(components)),
         _ => {
+            if spec.gaussian.is_some() && spec.seed.is_some() && spec.count.is_none() {
+                return Err(Diagnostic::at("/noise/count", "nothing", "the number of samples to draw"));
+            }
             let given = given(&[
                 ("samples", spec.samples.is_some()),
                 ("gaussian", spec.gaussian.is_some()),
@@ -151,7 +168,8 @@ pub(super) fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Di
                 ("independent", spec.independent.is_some()),
             ]);
             let found = if given.is_empty() { "nothing".to_owned() } else { given };
-            Err(Diagnostic::at("/noise", found, "either {samples} or {gaussian, count, seed}").remedy(INPUTS))
+            let expected = "{samples}, {gaussian, count, seed} to draw some, or what is known: {gaussian} or {components}";
+            Err(Diagnostic::at("/noise", found, expected))
         }
     }
 }

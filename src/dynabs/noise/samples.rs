@@ -68,6 +68,20 @@ impl NoiseSamples {
         &self.values
     }
 
+    /// The mean of every coordinate.
+    pub fn mean(&self) -> Vec<f64> {
+        let count = self.len().max(1) as f64;
+        let sum = |j: usize| self.iter().map(|sample| sample[j]).sum::<f64>();
+        (0..self.dimension).map(|j| sum(j) / count).collect()
+    }
+
+    /// The standard deviation of every coordinate.
+    pub fn deviations(&self) -> Vec<f64> {
+        let (count, mean) = (self.len().max(1) as f64, self.mean());
+        let squares = |j: usize| self.iter().map(|sample| (sample[j] - mean[j]).powi(2)).sum::<f64>();
+        (0..self.dimension).map(|j| (squares(j) / count).sqrt()).collect()
+    }
+
     /// The samples, one after the other.
     pub fn iter(&self) -> impl Iterator<Item = &[f64]> {
         self.values.chunks_exact(self.dimension)

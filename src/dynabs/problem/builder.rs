@@ -102,7 +102,7 @@ impl ProblemBuilder {
         self
     }
 
-    /// Where the noise samples come from.
+    /// What is known of the noise, or where samples of it come from.
     pub fn noise(mut self, source: impl Into<NoiseSource>) -> Self {
         self.noise = Some(source.into());
         self
@@ -149,15 +149,14 @@ impl ProblemBuilder {
         let stabilizer =
             self.lower_layer.map(|layer| lower_layer::stabilizer(&layer, &system, &input, &grid));
         let stabilizer = stabilizer.transpose()?;
-        let noise = noise.obtain(&step_system, group_steps)?;
-        let safety =
-            checked_task::safety(wanted.check, group_steps, &noise.of_one_step, &self.probabilities)?;
+        let noise = noise.plant_noise(&step_system, group_steps)?;
+        let safety = checked_task::safety(wanted.check, group_steps, &noise, &self.probabilities)?;
         let mut warnings = task.warnings;
         if let Some(fewest) = trials.first().filter(|fewest| fewest.steps < group_steps) {
             warnings.push(Warning::Grouped { steps: group_steps, fewest: fewest.clone() });
         }
         warnings.extend(stabilizer.iter().flat_map(|s| s.warnings.iter().cloned()));
-        warnings.extend(noise.warnings.iter().cloned());
+        warnings.extend(noise.samples().iter().flat_map(|samples| samples.warnings.iter().cloned()));
         Ok(Problem {
             name: self.name,
             step_system,

@@ -4,7 +4,7 @@ use super::automaton::{automaton, named_regions};
 use super::problem::Objective;
 use super::regions::{RegionBox, region, regions, widths};
 use super::task::{Hazard, Horizon, Task, Wanted};
-use super::{Probabilities, StepNoise};
+use super::{PlantNoise, Probabilities, StepNoise};
 use crate::memory::Need;
 use crate::partition::{CellId, CellKind, CellLabels, Grid, Region, first_overlap, near_misses};
 use crate::task::{self, AutomatonTask, CellTask, NamedRegion, Safety, Shape};
@@ -107,7 +107,7 @@ pub(super) fn require_steerable(
 pub(super) fn safety(
     check: Option<Safety>,
     d: usize,
-    noise: &StepNoise,
+    noise: &PlantNoise,
     probabilities: &Probabilities,
 ) -> Result<Safety, Diagnostic> {
     if d == 1 {
@@ -115,18 +115,19 @@ pub(super) fn safety(
     }
     let impossible = |found: &str, expected: &str| Err(Diagnostic::at("/task/check", found, expected));
     let is_reference = matches!(probabilities, Probabilities::Reference { .. });
-    match (check, noise) {
-        (Some(Safety::EveryStep), _) if is_reference => impossible(
+    let is_grouped = noise.samples().is_some_and(|samples| matches!(samples.of_one_step, StepNoise::Unknown));
+    match check {
+        Some(Safety::EveryStep) if is_reference => impossible(
             "\"every_step\" in mode \"reference\"",
             "\"grouped\" there: the published tool looks no closer",
         ),
-        (Some(Safety::EveryStep), StepNoise::Unknown) => impossible(
+        Some(Safety::EveryStep) if is_grouped => impossible(
             "\"every_step\" with samples of \"grouped\" steps, which say nothing about those in between",
             "samples of one \"step\", or \"grouped\"",
         ),
-        (Some(Safety::GroupedInstants), _) | (None, StepNoise::Unknown) => Ok(Safety::GroupedInstants),
-        (None, _) if is_reference => Ok(Safety::GroupedInstants),
-        (None | Some(Safety::EveryStep), _) => Ok(Safety::EveryStep),
+        Some(Safety::GroupedInstants) => Ok(Safety::GroupedInstants),
+        None if is_grouped || is_reference => Ok(Safety::GroupedInstants),
+        None | Some(Safety::EveryStep) => Ok(Safety::EveryStep),
     }
 }
 

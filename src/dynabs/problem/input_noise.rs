@@ -1,9 +1,7 @@
 //! The noise of a problem whose actions are inputs.
 
-use super::distribution::DistributionParts;
-use super::noise::{GaussianNoise, NoiseSource, SampledNoise};
+use super::noise::{GaussianNoise, NoiseSource, SampledNoise, components};
 use super::probabilities::Probabilities;
-use super::values::count;
 use crate::Diagnostic;
 use crate::linear_algebra::{ExactMatrix, LdlFactors};
 use crate::noise::Gaussian;
@@ -15,20 +13,13 @@ use serde::{Deserialize, Serialize};
 
 /// The noise of one step, not yet checked.
 #[derive(Clone, Debug)]
-pub enum InputNoiseParts {
-    /// Known distributions of the coordinates, which are independent; nothing where there is no noise.
-    Components(Vec<Option<DistributionParts>>),
-    /// A known normal distribution.
-    Gaussian(GaussianNoise),
-    /// Samples.
-    Sampled {
-        /// Where they come from.
-        source: NoiseSource,
-        /// What is assumed of the coordinates.
-        components: Components,
-        /// The confidence.
-        probabilities: Probabilities,
-    },
+pub struct InputNoiseParts {
+    /// What is known, or where samples come from.
+    pub source: NoiseSource,
+    /// What is assumed of the coordinates of samples.
+    pub components: Components,
+    /// The confidence, if there are samples.
+    pub probabilities: Probabilities,
 }
 
 /// What is assumed of the coordinates of sampled noise, and what samples are asked for.
@@ -87,18 +78,20 @@ impl InputNoiseParts {
     /// # Errors
     /// A [`Diagnostic`] for the first mistake found.
     pub(super) fn noise(&self, n: usize) -> Result<InputNoise, Diagnostic> {
-        match self {
-            Self::Components(parts) => components(parts, n).map(InputNoise::Components),
-            Self::Gaussian(parts) => joint(parts, n).map(|noise| InputNoise::Gaussian(Box::new(noise))),
-            Self::Sampled { source, components, probabilities } => {
-                let Probabilities::Pac { beta, sweep, discard } = probabilities.clone() else {
+        match &self.source {
+            NoiseSource::Components(parts) => components(parts, n).map(InputNoise::Components),
+            NoiseSource::Gaussian(parts) => {
+                joint(parts, n).map(|noise| InputNoise::Gaussian(Box::new(noise)))
+            }
+            sampled => {
+                let Probabilities::Pac { beta, sweep, discard } = self.probabilities.clone() else {
                     let expected = "\"pac\" for actions \"inputs\"";
                     return Err(Diagnostic::at("/probabilities/mode", "\"reference\"", expected));
                 };
                 let nothing = ExactMatrix::zeros(n, 1);
                 let one_step = LinearSystem::new(ExactMatrix::identity(n), nothing.clone(), nothing);
-                let noise = source.obtain(&one_step, 1)?;
-                let samples = StepSamples { noise, components: *components, beta, sweep, discard };
+                let noise = sampled.obtain(&one_step, 1)?;
+                let samples = StepSamples { noise, components: self.components, beta, sweep, discard };
                 Ok(InputNoise::Sampled(Box::new(samples)))
             }
         }
@@ -136,20 +129,6 @@ impl JointGaussian {
         use num_traits::Zero;
         self.is_active(j) && !self.factors.lower.get(i, j).is_zero()
     }
-}
-
-fn components(
-    parts: &[Option<DistributionParts>],
-    n: usize,
-) -> Result<Vec<Option<Distribution>>, Diagnostic> {
-    if parts.len() != n {
-        let expected = format!("{n}, one per dimension of the state (null for none)");
-        return Err(Diagnostic::at("/noise/components", count(parts.len(), "component"), expected));
-    }
-    let component = |(j, noise): (usize, &Option<DistributionParts>)| {
-        noise.as_ref().map(|noise| noise.distribution(&format!("/noise/components/{j}"))).transpose()
-    };
-    parts.iter().enumerate().map(component).collect()
 }
 
 fn joint(parts: &GaussianNoise, n: usize) -> Result<JointGaussian, Diagnostic> {

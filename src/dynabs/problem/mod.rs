@@ -57,10 +57,10 @@ pub use input_problem::{InputChoice, InputParts, InputProblem};
 pub use input_set::InputSet;
 pub use lower_layer::{Gain, LowerLayer, LqrWeights, Stabilizer};
 pub use noise::{
-    DrawnNoise, GaussianNoise, GivenSamples, NoiseOrigin, NoiseSource, SampleKind, SampledNoise, SamplesFile,
-    StepNoise,
+    DrawnNoise, GaussianNoise, GivenSamples, NoiseOrigin, NoiseSource, PlantNoise, SampleKind, SampledNoise,
+    SamplesFile, StepNoise,
 };
 pub use probabilities::Probabilities;
-pub use problem::{Actions, Objective, Problem, TargetPoints};
+pub use problem::{Actions, Knowledge, Objective, Problem, TargetPoints};
 pub use regions::{Partition, RegionBox, RegionParts, ShapeParts, TargetChoice};
 pub use task::{Hazard, Horizon, Leg, Logic, Task, Wanted};

@@ -1,8 +1,9 @@
 //! A control problem that is known to make sense.
 
-use super::{Probabilities, SampledNoise, Stabilizer};
+use super::{PlantNoise, Probabilities, SampledNoise, Stabilizer};
 use crate::Warning;
 use crate::geometry::Polytope;
+use crate::noise::known::Distribution;
 use crate::partition::{CellId, CellLabels, Grid, Region};
 use crate::system::{GroupingTrial, LinearSystem};
 use crate::task::{Aim, AutomatonTask, CellTask, Safety};
@@ -32,7 +33,7 @@ pub struct Problem {
     pub(super) threshold: Option<Probability>,
     pub(super) initial: Option<InitialState>,
     pub(super) probabilities: Probabilities,
-    pub(super) noise: SampledNoise,
+    pub(super) noise: PlantNoise,
     pub(super) warnings: Vec<Warning>,
 }
 
@@ -77,6 +78,31 @@ impl Objective {
             Self::Automaton(task) => task.aim(),
         }
     }
+}
+
+/// What is known of the noise, and how intervals are computed from it.
+#[derive(Clone, Copy, Debug)]
+pub enum Knowledge<'a> {
+    /// Its distribution, by coordinate: intervals enclose its masses.
+    Distribution(&'a [Option<Distribution>]),
+    /// Samples: intervals hold jointly with probability at least `1 − beta / sweep`.
+    Samples {
+        /// The samples.
+        noise: &'a SampledNoise,
+        /// The failure probability of all settings of the sweep together.
+        beta: &'a Rational,
+        /// How many settings are compiled with these samples.
+        sweep: u64,
+        /// How many of the farthest samples are left out of the cells that rows list.
+        discard: u64,
+    },
+    /// Samples, and the published tool's intervals.
+    Published {
+        /// The samples.
+        noise: &'a SampledNoise,
+        /// The failure probability of one interval.
+        beta_per_interval: f64,
+    },
 }
 
 /// What the controller chooses from in every cell.
@@ -214,14 +240,22 @@ impl Problem {
         self.initial.as_ref().map(|initial| initial.cell)
     }
 
-    /// How intervals are computed.
-    pub fn probabilities(&self) -> &Probabilities {
-        &self.probabilities
+    /// What is known of the noise.
+    pub fn noise(&self) -> &PlantNoise {
+        &self.noise
     }
 
-    /// What is known of the noise.
-    pub fn noise(&self) -> &SampledNoise {
-        &self.noise
+    /// What is known of the noise, and how intervals are computed from it: the mode of the abstraction.
+    pub fn knowledge(&self) -> Knowledge<'_> {
+        match (&self.noise, &self.probabilities) {
+            (PlantNoise::Known(components), _) => Knowledge::Distribution(components),
+            (PlantNoise::Sampled(noise), Probabilities::Pac { beta, sweep, discard }) => {
+                Knowledge::Samples { noise, beta, sweep: *sweep, discard: *discard }
+            }
+            (PlantNoise::Sampled(noise), Probabilities::Reference { beta_per_interval }) => {
+                Knowledge::Published { noise, beta_per_interval: *beta_per_interval }
+            }
+        }
     }
 
     /// What the user should know.

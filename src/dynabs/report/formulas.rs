@@ -58,14 +58,16 @@ pub(super) fn model(material: &Material<'_>) -> String {
     text += &format!("<p>Task: {what}, avoiding the unsafe region.</p>\n");
     text += &boxes(wanted, &material.scene.names, problem.wanted());
     text += &boxes("Unsafe region", &material.scene.names, problem.unsafe_regions());
-    let seed = problem.noise().seed().map_or(String::new(), |seed| format!(", drawn with seed {seed}"));
-    let file = problem.noise().file().map_or(String::new(), |(name, _)| format!(", from {}", escape(name)));
-    text += &format!(
-        "<p>Noise: {} samples of {}{seed}{file}, of mean {}.</p>\n",
-        problem.noise().samples.len(),
-        if d > 1 { format!("{d} steps together") } else { "one step".to_owned() },
-        tuple(&material.noise_mean)
-    );
+    let noise = match problem.noise().samples() {
+        None => "the distribution is known".to_owned(),
+        Some(noise) => {
+            let seed = noise.seed().map_or(String::new(), |seed| format!(", drawn with seed {seed}"));
+            let file = noise.file().map_or(String::new(), |(name, _)| format!(", from {}", escape(name)));
+            let of = if d > 1 { format!("{d} steps together") } else { "one step".to_owned() };
+            format!("{} samples of {of}{seed}{file}", noise.samples.len())
+        }
+    };
+    text += &format!("<p>Noise: {noise}, of mean {}.</p>\n", tuple(&material.noise_mean));
     text
 }
 

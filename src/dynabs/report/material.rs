@@ -5,7 +5,7 @@ use super::scene::{Scene, SceneActions, faces};
 use super::values::StepValues;
 use crate::controller::{Controller, Noise, Simulation};
 use crate::partition::{CellId, CellKind};
-use crate::problem::{Problem, StepNoise};
+use crate::problem::{PlantNoise, Problem, StepNoise};
 use crate::run::Run;
 use imdp::engines::CrossCheckFile;
 use imdp::numeric::to_f64;
@@ -56,15 +56,18 @@ impl<'a> Material<'a> {
             .initial_state()
             .map(<[f64]>::to_vec)
             .unwrap_or_else(|| typical_state(problem, controller));
-        let noise = match &problem.noise().of_one_step {
-            StepNoise::Gaussian(_) => "the model's Gaussian noise",
-            _ => "the model's samples, drawn with replacement",
+        let noise = match problem.noise() {
+            PlantNoise::Known(_) => "the model's noise",
+            PlantNoise::Sampled(noise) if matches!(noise.of_one_step, StepNoise::Gaussian(_)) => {
+                "the model's Gaussian noise"
+            }
+            PlantNoise::Sampled(_) => "the model's samples, drawn with replacement",
         };
-        let simulation = Simulation::new(problem, controller, Noise::of(problem.noise()), MOST_STEPS);
+        let simulation = Simulation::new(problem, controller, Noise::of_plant(problem.noise()), MOST_STEPS);
         let tally = simulation.tally(&start, options.seed, options.runs, progress);
         let drawn = 0..options.drawn;
         let trajectories = drawn.map(|run| simulation.trajectory(&start, options.seed, run)).collect();
-        let noise_mean = mean(problem);
+        let noise_mean = problem.noise().mean();
         let n = problem.grid().dimension();
         let scene = Scene {
             name: problem.name(),
@@ -140,13 +143,4 @@ fn typical_state(problem: &Problem, controller: &Controller) -> Vec<f64> {
     let cell = cells.get(cells.len() / 2).copied().unwrap_or(CellId(0));
     let coordinates = problem.grid().coordinates(cell);
     problem.grid().axes().iter().zip(coordinates).map(|(axis, i)| to_f64(&axis.center(i))).collect()
-}
-
-fn mean(problem: &Problem) -> Vec<f64> {
-    let samples = &problem.noise().samples;
-    let mut sum = vec![0.0; samples.dimension()];
-    for sample in samples.iter() {
-        sum.iter_mut().zip(sample).for_each(|(sum, x)| *sum += x);
-    }
-    sum.iter().map(|sum| sum / samples.len() as f64).collect()
 }

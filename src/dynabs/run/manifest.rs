@@ -6,7 +6,7 @@ use crate::Warning;
 use crate::abstraction::Abstraction;
 use crate::guarantee::Guarantee;
 use crate::model_file::Document;
-use crate::problem::Problem;
+use crate::problem::{Problem, SampledNoise};
 use crate::system::Variable;
 use imdp::formats::prism::RAISED_LOWER_BOUND;
 use imdp::formats::sha256_hex;
@@ -41,7 +41,7 @@ pub struct Manifest {
     pub rows: u64,
     /// The number of entries of these rows.
     pub row_entries: u64,
-    /// `pac` or `reference`.
+    /// `pac`, `known` or `reference`.
     pub mode: String,
     /// What the intervals promise, and what that rests on.
     pub guarantee: Guarantee,
@@ -178,8 +178,8 @@ impl Manifest {
             pruning: None,
             prism_lower_bound: RAISED_LOWER_BOUND,
             prism_lower_bound_note: lower_bound_note(problem),
-            samples: problem.noise().samples.len() as u64,
-            seed: problem.noise().seed(),
+            samples: problem.noise().samples().map_or(0, |noise| noise.samples.len() as u64),
+            seed: problem.noise().samples().and_then(SampledNoise::seed),
             warnings: problem
                 .warnings()
                 .iter()
@@ -270,6 +270,6 @@ fn inputs(document: &Document, source: &str, problem: &Problem) -> Vec<InputFile
     let base = |name: &str| name.rsplit(['/', '\\']).next().unwrap_or(name).to_owned();
     let file = |name: &str, text: &str| InputFile { name: base(name), sha256: sha256_hex(text.as_bytes()) };
     let model = file(&document.name, source);
-    let noise = problem.noise().file().map(|(name, text)| file(name, text));
+    let noise = problem.noise().samples().and_then(SampledNoise::file).map(|(name, text)| file(name, text));
     std::iter::once(model).chain(noise).collect()
 }

@@ -7,7 +7,7 @@ use super::manifest::Manifest;
 use super::solution::{solution_options, stored};
 use crate::abstraction::Abstraction;
 use crate::model_file::Document;
-use crate::problem::Problem;
+use crate::problem::{Problem, SampledNoise};
 use imdp::files::steady;
 use imdp::formats::native;
 use imdp::formats::sha256_hex;
@@ -82,7 +82,7 @@ impl Run {
         }
         let document = problem_document(directory, &files.read(PROBLEM)?)?;
         let problem = document.problem()?;
-        if let Some((_, text)) = problem.noise().file() {
+        if let Some((_, text)) = problem.noise().samples().and_then(SampledNoise::file) {
             // What was read, not what is there by now.
             files.compare(NOISE, &sha256_hex(text.as_bytes()))?;
         }

@@ -56,10 +56,13 @@ pub fn write_run(
     let property = abstraction.property.to_string();
     write_solution(&mut staging, (NATIVE_MODEL, &property), options.solution)?;
     staging.write("model.props", |out| writeln!(out, "{}", abstraction.property))?;
-    let is_file = problem.noise().file().is_some();
+    let samples = problem.noise().samples();
+    let is_file = samples.and_then(SampledNoise::file).is_some();
     staging
         .write(PROBLEM, |out| out.write_all(self_contained(document.value.clone(), is_file).as_bytes()))?;
-    staging.write(NOISE, |out| write_samples(problem.noise(), out))?;
+    if let Some(samples) = samples {
+        staging.write(NOISE, |out| write_samples(samples, out))?;
+    }
     manifest.outputs = staging.files().to_vec();
     staging.commit(&manifest)?;
     Ok(manifest)

@@ -205,14 +205,15 @@ mod tests {
             }
             let id = rows.finish_row();
             let rows = RowSet::from(rows);
-            let mut block = RowBlock::new(&rows, vec![id]);
+            let mut workspace = Workspace::default();
+            let mut block = RowBlock::new(&rows, vec![id], &mut workspace);
             let mut buffer = RowBuffer::default();
             for values in rounds {
                 let values: Vec<f64> = values.into_iter().map(|v| f64::from(v) / 11.0).collect();
                 for nature in [Direction::Min, Direction::Max] {
                     let expected = sorted(rows.row(id, &mut buffer), &values, nature);
                     let [low, high] = [Bound::Lower, Bound::Upper]
-                        .map(|side| block.evaluate(&rows, &values, (nature, side), |_| None)[0]);
+                        .map(|side| block.evaluate(&rows, &values, (nature, side), |_| None, &mut workspace)[0]);
                     prop_assert!(low <= expected && expected <= high, "{low} {expected} {high}");
                     prop_assert!(high - low < 1e-12, "{low} {high}");
                 }

@@ -58,7 +58,8 @@ impl FirstPass {
     ) -> Self {
         let threshold = values[(critical as usize).min(values.len() - 1)];
         // Arrays that stay in registers, which a closure over them would not.
-        let (mut lowest, mut highest, mut base) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES], [0.0; LANES]);
+        let (mut lowest, mut highest, mut base) =
+            ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES], [0.0; LANES]);
         let (mut room, mut room_with, mut share) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
         let (values, lower, upper) =
             (values.as_chunks::<LANES>(), row.lower.as_chunks::<LANES>(), row.upper.as_chunks::<LANES>());
@@ -94,7 +95,12 @@ impl FirstPass {
             lowest: lowest.into_iter().fold(f64::INFINITY, f64::min),
             highest: highest.into_iter().fold(f64::NEG_INFINITY, f64::max),
             base: sum(base) + rest,
-            before: Before { value: threshold, room: sum(room), room_with: sum(room_with), share: sum(share) },
+            before: Before {
+                value: threshold,
+                room: sum(room),
+                room_with: sum(room_with),
+                share: sum(share),
+            },
         }
     }
 }

@@ -35,6 +35,7 @@ pub(super) struct Outlook<'a> {
     rewards: &'a RewardStructure,
     nature: Nature,
     side: Side,
+    discount: &'a Rational,
     /// By state; perhaps infinite.
     values: &'a [f64],
     /// Values are divided by this power of two, so that they are at most 1.
@@ -50,8 +51,8 @@ impl<'a> Outlook<'a> {
     pub(super) fn new(
         rows: &'a ExactRows<'a>,
         rewards: &'a RewardStructure,
-        nature: Nature,
-        side: Side,
+        (nature, side): (Nature, Side),
+        discount: &'a Rational,
         values: &'a [f64],
     ) -> Self {
         let finite = values.iter().copied().filter(|value| value.is_finite());
@@ -72,17 +73,17 @@ impl<'a> Outlook<'a> {
             scaled.push(small);
         }
         let known = BTreeMap::new();
-        Self { rows, rewards, nature, side, values, scale, scaled, replaced, known, evaluated: 0 }
+        Self { rows, rewards, nature, side, discount, values, scale, scaled, replaced, known, evaluated: 0 }
     }
 
-    /// What a choice leads to, in units of the value: `opt_p p·(V + rewards of branches)`; `None` if it is infinite.
+    /// What a choice leads to, as it is worth today: `opt_p p·(γ V + rewards of branches)`; `None` if it is infinite.
     pub(super) fn of_choice(&mut self, choice: u64, row: RowId) -> Result<Option<Rational>, Rejection> {
         if let Some(of_branches) = self.rewards.branches.get(&choice) {
             let values = &self.values;
             let buffer = &mut RowBuffer::default();
             let successors = self.rows.model.rows().row(row, buffer).successors;
             let value = |(&s, &reward): (&StateId, &f64)| match values[s.index()].is_finite() {
-                true => exact(values[s.index()]) + exact(reading(reward, self.side)),
+                true => exact(values[s.index()]) * self.discount + exact(reading(reward, self.side)),
                 false => Rational::zero(),
             };
             let own: Vec<Rational> = successors.iter().zip(of_branches).map(value).collect();
@@ -91,7 +92,7 @@ impl<'a> Outlook<'a> {
         if let Some(known) = self.known.get(&row) {
             return Ok(known.clone());
         }
-        let found = self.expectation(row, None)?;
+        let found = self.expectation(row, None)?.map(|later| later * self.discount);
         self.known.insert(row, found.clone());
         Ok(found)
     }

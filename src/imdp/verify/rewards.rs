@@ -228,7 +228,7 @@ impl Proof<'_> {
         step: Option<u64>,
         strict: bool,
     ) -> Result<(), Rejection> {
-        let mut outlook = Outlook::new(self.rows, self.rewards, self.nature, side, values);
+        let mut outlook = Outlook::new(self.rows, self.rewards, (self.nature, side), &self.discount, values);
         let trivial = |value: f64| match side {
             // Infinite lower bounds are proved otherwise.
             Side::Lower => value == 0.0 || value == f64::INFINITY,
@@ -260,7 +260,7 @@ impl Proof<'_> {
                 let choice = self.first_choices[s] + u64::from(number);
                 let value = outlook
                     .of_choice(choice, row)?
-                    .map(|later| earned(self.rewards, s, Some(choice), side) + later * &self.discount);
+                    .map(|later| earned(self.rewards, s, Some(choice), side) + later);
                 let follows = match (side, &value) {
                     (Side::Lower, None) => true,
                     (Side::Upper, None) => false,

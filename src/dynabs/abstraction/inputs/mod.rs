@@ -239,7 +239,7 @@ fn landed(
     let known = |landing: Landing, unlisted: f64| Landed {
         landing,
         relaxed: None,
-        evidence: Evidence::Known { unlisted },
+        evidence: Evidence::Known { unlisted, both_sides: true },
         warnings: vec![],
     };
     match problem.noise() {

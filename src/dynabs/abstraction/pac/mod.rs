@@ -94,7 +94,7 @@ use super::stencil::{BoxCount, Ground, Hits, Special, Stencil, StencilRows};
 use super::targets::Targets;
 use super::windows::WINDOWS;
 use crate::guarantee::SampleEvidence;
-use crate::problem::Problem;
+use crate::problem::{Problem, SampledNoise};
 use bounds::{BoundTable, DIGITS, Interval};
 use events::{cell_events, intervals};
 use imdp::model::RowSet;
@@ -112,6 +112,8 @@ use std::sync::Arc;
 /// The rows of all actions, with any of their windows.
 pub(super) struct PacRows<'a> {
     problem: &'a Problem,
+    /// The number of samples.
+    number: u64,
     targets: &'a Targets,
     landings: ActionCounts<'a>,
     ground: Arc<Ground>,
@@ -136,14 +138,14 @@ pub(super) struct PacRows<'a> {
 impl<'a> PacRows<'a> {
     /// Counts.
     pub(super) fn new(
-        problem: &'a Problem,
+        (problem, noise): (&'a Problem, &'a SampledNoise),
         prepared: Prepared,
         enabling: &'a Enabling,
         placements: TargetPlacements<'a>,
         states: &StateSpace,
         outcomes: &Outcomes,
     ) -> Result<Self, AbstractionError> {
-        let (grid, samples) = (problem.grid(), &problem.noise().samples);
+        let (grid, samples) = (problem.grid(), &noise.samples);
         let Enabling { targets, rooms, .. } = enabling;
         let levels = &prepared.levels;
         let inside_only = levels.lower_bounds() == LowerBounds::InsideWindows;
@@ -172,7 +174,7 @@ impl<'a> PacRows<'a> {
         let of_lost = EventLevels { lower: [0.0; WINDOWS], upper: levels.lost };
         let lost = BoundTable::new(lost_events, &size, |()| of_lost);
         let shared = landings.shared().map(|landing| intervals(landing, &vec![0; grid.dimension()], &cells));
-        let between = &problem.noise().between;
+        let between = &noise.between;
         let in_room = |&room| RoomBounds::new(room, &prepared, &landings, between);
         let in_rooms: Vec<RoomBounds> = rooms.distinct.par_iter().filter_map(in_room).collect();
         let windows = landings.shared_windows();
@@ -191,6 +193,7 @@ impl<'a> PacRows<'a> {
             in_rooms,
             rooms,
             problem,
+            number: samples.len() as u64,
             targets,
             landings,
             ground: Arc::new(ground),
@@ -243,7 +246,7 @@ impl<'a> PacRows<'a> {
     pub(super) fn evidence(&self) -> SampleEvidence {
         let prepared = &self.prepared;
         SampleEvidence {
-            number: self.problem.noise().samples.len() as u64,
+            number: self.number,
             beta: prepared.beta,
             sweep: prepared.sweep,
             budget: prepared.budget.allocations().to_vec(),

@@ -7,7 +7,7 @@ use super::super::targets::Targets;
 use super::super::windows::{Stack, Windows, shape_samples};
 use super::bounds::{DIGITS, SampleSize};
 use super::levels::{Levels, LowerBounds, distances_in_cells};
-use crate::problem::Problem;
+use crate::problem::{Problem, SampledNoise};
 use crate::statistics::{ConfidenceBudget, upper_bound};
 use imdp::numeric::{Rational, one_minus_down, round_decimal_up, to_f64};
 
@@ -34,13 +34,13 @@ impl Prepared {
     ///
     /// With `hazards` to be avoided at every step, windows are for the noise of all steps.
     pub(in super::super) fn new(
-        problem: &Problem,
+        (problem, noise): (&Problem, &SampledNoise),
         (beta, sweep, discard): (&Rational, u64, usize),
         targets: &Targets,
         placements: &TargetPlacements<'_>,
         hazards: Option<&Hazards>,
     ) -> Result<Self, AbstractionError> {
-        let (grid, noise) = (problem.grid(), problem.noise());
+        let grid = problem.grid();
         let (lower, between, watched): (_, &[_], &[_]) = match hazards {
             None => (LowerBounds::OfNoise, &[], &[]),
             Some(hazards) => (LowerBounds::InsideWindows, &noise.between, hazards.watched()),

@@ -98,6 +98,11 @@ impl Stencil {
         }
     }
 
+    /// The upper bound at a position in the runs.
+    pub(super) fn upper(&self, position: usize) -> f64 {
+        self.upper[position + 1]
+    }
+
     /// The row at `origin`, if it has so many entries.
     pub(super) fn row<'a>(
         &'a self,

@@ -2,7 +2,7 @@
 
 use super::{Noise, Plant};
 use crate::controller::Controller;
-use crate::problem::{InputNoise, InputProblem};
+use crate::problem::InputProblem;
 use crate::system::Interval;
 use rand::{Rng, RngExt};
 
@@ -26,24 +26,15 @@ const MOST_ADVERSARIAL: usize = 8;
 pub(super) enum Motion<'a> {
     /// A linear one.
     Linear { plant: Plant, noise: Noise },
-    /// Any; the noise comes from samples if only they are known.
-    Mode { problem: &'a InputProblem, parameters: ParameterChoice, sampled: Option<Noise> },
+    /// Any.
+    Mode { problem: &'a InputProblem, parameters: ParameterChoice, noise: Noise },
 }
 
 impl Motion<'_> {
     /// Draws the noise of a group of steps, step after step.
     pub(super) fn draw(&self, rng: &mut impl Rng, noise: &mut [f64]) {
         match self {
-            Self::Linear { noise: source, .. } => source.draw(rng, noise),
-            Self::Mode { problem, sampled, .. } => match (problem.noise(), sampled) {
-                (InputNoise::Components(components), _) => {
-                    let drawn = components.iter().map(|one| one.as_ref().map_or(0.0, |one| one.draw(rng)));
-                    noise.iter_mut().zip(drawn).for_each(|(noise, drawn)| *noise = drawn);
-                }
-                (InputNoise::Gaussian(joint), _) => joint.draws.draw(rng, noise),
-                (InputNoise::Sampled(_), Some(source)) => source.draw(rng, noise),
-                (InputNoise::Sampled(_), None) => noise.fill(0.0),
-            },
+            Self::Linear { noise: source, .. } | Self::Mode { noise: source, .. } => source.draw(rng, noise),
         }
     }
 

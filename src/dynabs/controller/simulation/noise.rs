@@ -1,12 +1,15 @@
 //! The noise of a simulated run.
 
+use crate::noise::known::Distribution;
 use crate::noise::{Gaussian, NoiseSamples};
-use crate::problem::{SampledNoise, StepNoise};
+use crate::problem::{InputNoise, PlantNoise, SampledNoise, StepNoise};
 use rand::{Rng, RngExt};
 
 /// Where the noise of the closed loop comes from.
 #[derive(Clone, Debug)]
 pub enum Noise {
+    /// Distributions of the coordinates of the noise of one step; nothing where there is no noise.
+    Components(Vec<Option<Distribution>>),
     /// A normal distribution of the noise of one step.
     Gaussian(Gaussian),
     /// Samples of the noise of one step, drawn with replacement.
@@ -16,6 +19,23 @@ pub enum Noise {
 }
 
 impl Noise {
+    /// The noise of a problem, as truly as it is known.
+    pub fn of_plant(noise: &PlantNoise) -> Self {
+        match noise {
+            PlantNoise::Known(components) => Self::Components(components.clone()),
+            PlantNoise::Sampled(source) => Self::of(source),
+        }
+    }
+
+    /// The noise of a problem whose actions are inputs, as truly as it is known.
+    pub fn of_inputs(noise: &InputNoise) -> Self {
+        match noise {
+            InputNoise::Components(components) => Self::Components(components.clone()),
+            InputNoise::Gaussian(joint) => Self::Gaussian(joint.draws.clone()),
+            InputNoise::Sampled(samples) => Self::of(&samples.noise),
+        }
+    }
+
     /// The noise that a source describes, and as truly as it is known: step by step if it can be.
     pub fn of(source: &SampledNoise) -> Self {
         match &source.of_one_step {
@@ -28,6 +48,7 @@ impl Noise {
     /// The dimension of the noise.
     pub fn dimension(&self) -> usize {
         match self {
+            Self::Components(components) => components.len(),
             Self::Gaussian(gaussian) => gaussian.dimension(),
             Self::StepSamples(samples) | Self::GroupedSamples(samples) => samples.dimension(),
         }
@@ -42,6 +63,12 @@ impl Noise {
     pub(super) fn draw(&self, rng: &mut impl Rng, steps: &mut [f64]) {
         let n = self.dimension();
         match self {
+            Self::Components(components) => {
+                for noise in steps.chunks_exact_mut(n) {
+                    let drawn = components.iter().map(|one| one.as_ref().map_or(0.0, |one| one.draw(rng)));
+                    noise.iter_mut().zip(drawn).for_each(|(noise, drawn)| *noise = drawn);
+                }
+            }
             Self::Gaussian(gaussian) => {
                 steps.chunks_exact_mut(n).for_each(|noise| gaussian.draw(rng, noise));
             }

@@ -77,10 +77,9 @@ impl<'a> Simulation<'a> {
         parameters: ParameterChoice,
         most_steps: u64,
     ) -> Self {
-        let sampled = problem.noise().samples().map(|samples| Noise::of(&samples.noise));
         Self {
             controller,
-            motion: Motion::Mode { problem, parameters, sampled },
+            motion: Motion::Mode { problem, parameters, noise: Noise::of_inputs(problem.noise()) },
             inputs: problem.set().map(InputCheck::new),
             witness: Witness::new(problem.objective(), problem.unsafe_regions()),
             avoid: vec![],
@@ -247,7 +246,7 @@ mod tests {
     #[test]
     fn a_broken_law_is_noticed() {
         let (problem, mut controller) = room();
-        let noise = Noise::of(problem.noise());
+        let noise = Noise::of_plant(problem.noise());
         let tally = |controller: &Controller| {
             Simulation::new(&problem, controller, noise.clone(), 0).tally(&[2.0], 1, 1000, &())
         };

@@ -4,6 +4,7 @@ use super::super::expectation::{Bound, RowBlock, Workspace};
 use super::super::query::{Direction, Players};
 use super::costs;
 use crate::model::{IntervalMdp, RewardStructure, RowBuffer, RowId, RowSet, Rows, StateId};
+use std::borrow::Cow;
 
 /// A choice that a state may make.
 struct Choice {
@@ -103,23 +104,23 @@ impl Operator {
 
     /// `opt_a opt_p (r + γ p·V)` for every state in the order of [`Self::states`], and the choices that attain it.
     pub(super) fn apply(&mut self, values: &[f64], discount: f64, side: Bound) -> (Vec<f64>, Vec<u32>) {
-        let mut extended;
-        let mut all = values;
-        if !self.branches.is_empty() {
-            extended = values.to_vec();
-            debug_assert_eq!(extended.len(), self.model_states);
-            extended.extend(self.branches.iter().map(|&(state, reward)| {
-                costs::sum(values[state.index()], costs::written(reward, side), side)
-            }));
-            all = &extended;
-        }
-        let weights = self.block.evaluate(&self.rows, all, (self.players.nature, side), |_| None);
+        debug_assert_eq!(values.len(), self.model_states);
+        let needs_own = discount != 1.0 || !self.branches.is_empty();
+        let later: Cow<'_, [f64]> =
+            if needs_own { self.later(values, discount, side).into() } else { values.into() };
+        let weights = self.block.evaluate(
+            &self.rows,
+            &later,
+            (self.players.nature, side),
+            |_| None,
+            &mut self.workspace,
+        );
         let maximises = self.players.policy == Direction::Max;
         let (mut results, mut chosen) = (vec![], vec![]);
         for choices in &self.choices {
             let mut best: Option<(f64, u32)> = None;
             for choice in choices {
-                let weight = discounted(weights[choice.row.index()], discount, side);
+                let weight = weights[choice.row.index()];
                 let value = costs::sum(choice.cost[usize::from(side == Bound::Upper)], weight, side);
                 let better = best.is_none_or(|(old, _)| if maximises { value > old } else { value < old });
                 if better {
@@ -131,6 +132,15 @@ impl Operator {
             chosen.push(number);
         }
         (results, chosen)
+    }
+
+    /// What successors are worth today: `γ V(s)` of a state, `r + γ V(s)` of a branch that earns `r` of its own.
+    fn later(&self, values: &[f64], discount: f64, side: Bound) -> Vec<f64> {
+        let mut later: Vec<f64> = values.iter().map(|&value| discounted(value, discount, side)).collect();
+        for &(state, reward) in &self.branches {
+            later.push(costs::sum(later[state.index()], costs::written(reward, side), side));
+        }
+        later
     }
 }
 
