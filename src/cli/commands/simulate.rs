@@ -126,9 +126,9 @@ pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, CliError> {
     }
     if let Some(path) = &arguments.trajectories {
         let kept = arguments.keep.min(arguments.runs);
-        let trajectories = (0..kept).map(|run| simulation.trajectory(&start, arguments.seed, run));
+        let runs = (&start[..], arguments.seed, kept);
         let sizes = (controller.state_dimension(), controller.step_inputs());
-        replace(path, |out| write_trajectories(sizes, trajectories, out))?;
+        replace(path, |out| write_trajectories(&simulation, runs, sizes, out))?;
     }
     let SimulateArguments { seed, confidence, .. } = *arguments;
     let simulated = Simulated { from: start, seed, confidence, tally, seconds };

@@ -21,6 +21,6 @@ pub use memory::RunMemory;
 pub use refined::{Controller, ControllerError};
 pub use schedule::Entry;
 pub use simulation::{
-    End, Frequency, InputCheck, Noise, ParameterChoice, Plant, RunOutcome, Simulation, Tally, Trajectory,
-    TrajectoryStep, Violation, samples_per_run,
+    End, Frequency, InputCheck, Moment, Noise, ParameterChoice, Plant, RunOutcome, Simulation, Tally,
+    Trajectory, TrajectoryStep, Violation, samples_per_run,
 };

@@ -69,7 +69,7 @@ pub(super) fn indicator(set: &StateSet) -> Vec<f64> {
 }
 
 /// A change in a list that grows, which may take twice as much, and in the policy that it becomes.
-const CHANGE_BYTES: u64 = 2 * size_of::<(StateId, u64, u32)>() as u64 + 16;
+pub(super) const CHANGE_BYTES: u64 = 2 * size_of::<(StateId, u64, u32)>() as u64 + 16;
 
 struct Iteration<'a> {
     model: &'a IntervalMdp,

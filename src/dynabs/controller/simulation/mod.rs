@@ -17,6 +17,6 @@ pub use noise::Noise;
 pub use outcome::{End, RunOutcome};
 pub use plant::Plant;
 pub use replay::samples_per_run;
-pub use runs::Simulation;
+pub use runs::{Moment, Simulation};
 pub use tally::{Frequency, Tally};
 pub use trajectory::{Trajectory, TrajectoryStep};

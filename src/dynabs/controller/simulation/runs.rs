@@ -28,8 +28,11 @@ pub struct Simulation<'a> {
 }
 
 /// What an observer of a run sees, before every original step and at the end.
-pub(super) struct Moment<'a> {
+#[derive(Clone, Copy, Debug)]
+pub struct Moment<'a> {
+    /// The number of original steps before it.
     pub step: u64,
+    /// The state.
     pub x: &'a [f64],
     /// The input of the step, unless this is the end.
     pub u: Option<&'a [f64]>,
@@ -121,13 +124,9 @@ impl<'a> Simulation<'a> {
         tally
     }
 
-    pub(super) fn watch(
-        &self,
-        start: &[f64],
-        seed: u64,
-        run: u64,
-        see: impl FnMut(Moment<'_>),
-    ) -> RunOutcome {
+    /// Run number `run` from `start` with an observer that keeps of it what it wants: the run that [`run`](Self::run) and
+    /// [`tally`](Self::tally) count under this number and seed.
+    pub fn watch(&self, start: &[f64], seed: u64, run: u64, see: impl FnMut(Moment<'_>)) -> RunOutcome {
         self.observe(start, seed, run, &mut self.scratch(), see)
     }
 

@@ -1,6 +1,6 @@
 //! Expected rewards of a number of steps, and discounted ones.
 
-use super::super::bounded::indicator;
+use super::super::bounded::{CHANGE_BYTES, indicator};
 use super::super::evidence::{Recorder, unlike};
 use super::super::expectation::Bound;
 use super::super::options::Control;
@@ -9,7 +9,7 @@ use super::super::{Policy, Solution, SolveError, SolverOptions, Status, ValueBou
 use super::costs;
 use super::operator::{Operator, discounted};
 use crate::certificate::{Evidence, RewardInductive};
-use crate::model::{IntervalMdp, RewardStructure, StateId};
+use crate::model::{GrowingMemory, IntervalMdp, RewardStructure, StateId};
 
 /// The value of the rewards of so many steps, or of all.
 pub(super) fn cumulative(
@@ -34,6 +34,7 @@ pub(super) fn cumulative(
     let mut control = Control::new(options);
     let mut recorder = (options.evidence && steps.is_some()).then(|| Recorder::new(model.num_states()));
     let mut changes = vec![];
+    let mut memory = GrowingMemory::new("the policy");
     let mut current = vec![u32::MAX; model.num_states()];
     let status = loop {
         if steps.is_some_and(|steps| control.iterations >= steps) {
@@ -45,6 +46,8 @@ pub(super) fn cumulative(
             }
             break reason;
         }
+        let bytes = |changes: usize| CHANGE_BYTES * changes as u64;
+        memory.make_room(bytes(changes.len()), bytes(iteration.operator.states.len()))?;
         let chosen = iteration.both(&mut lower, &mut upper, discount, &mut recorder)?;
         for (&s, choice) in iteration.operator.states.iter().zip(chosen) {
             if current[s.index()] != choice {
