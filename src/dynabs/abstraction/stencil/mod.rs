@@ -119,8 +119,11 @@ impl Stencil {
         let room = length.min(self.runs.len() + 1) + 1;
         if successors.len() < room {
             successors.resize(room, StateId(0));
-            lower.resize(room, 0.0);
-            upper.resize(room, 0.0);
+        }
+        for bounds in [&mut *lower, &mut *upper] {
+            if bounds.len() < room {
+                bounds.resize(room, 0.0);
+            }
         }
         let mut end = 0;
         let specials = [Some((StateId(0), special.first)), special.reached.map(|b| (StateId(1), b))];
