@@ -48,6 +48,7 @@ mod soundness;
 mod steering;
 mod sweep;
 mod systems;
+mod target_tasks;
 mod tasks;
 mod type_names;
 mod validate;

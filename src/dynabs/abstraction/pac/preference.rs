@@ -1,7 +1,7 @@
 //! Which window a row is made with.
 
 use super::super::stencil::{Chosen, Stencil};
-use super::PacRows;
+use super::{Action, PacRows};
 use imdp::model::{Row, RowBuffer, RowSet};
 use imdp::solver::WorstExpectation;
 
@@ -53,34 +53,40 @@ impl<'a> Chooser<'a> {
     }
 
     /// The window of an action's row, and what follows from it.
-    pub(super) fn choose(&mut self, stencils: &[Stencil], target: usize) -> Chosen {
+    pub(super) fn choose(&mut self, stencils: &[Stencil], action: Action<'_>) -> Chosen {
         let Self { rows, preference, rivals, buffer: RowBuffer { entries, coordinates }, expectation } = self;
-        rows.ground.origin(target, coordinates);
-        let first = rows.first_stencil(target);
+        action.ground.origin(action.target, coordinates);
+        let first = rows.first_stencil(action.target);
         let stencils = &stencils[first..first + rows.windows()];
         let windows = rivals.iter().copied();
         let best = match preference {
-            Preference::Worth(Worth { most, .. }) if most[target] == 0.0 => 0,
+            Preference::Worth(Worth { most, .. }) if most[action.row] == 0.0 => 0,
             Preference::LeastFailing => {
-                first_best(windows, |window| -rows.failed(&stencils[window], target, coordinates, window))
+                first_best(windows, |window| -rows.failed(&stencils[window], action, coordinates, window))
             }
             Preference::Worth(Worth { values, .. }) => first_best(windows, |window| {
                 let stencil = &stencils[window];
-                let special = rows.special(stencil, target, coordinates, window);
-                let length = rows.length(stencil, coordinates, special) as usize;
-                expectation.of(stencil.row(&rows.ground, coordinates, (special, length), entries), values)
+                let special = rows.special(stencil, action, coordinates, window);
+                let length = rows.length(stencil, action, coordinates, special) as usize;
+                expectation.of(stencil.row(action.ground, coordinates, (special, length), entries), values)
             }),
         };
         let stencil = &stencils[best];
-        let special = rows.special(stencil, target, coordinates, best);
-        Chosen { stencil: (first + best) as u32, special, length: rows.length(stencil, coordinates, special) }
+        let special = rows.special(stencil, action, coordinates, best);
+        let length = rows.length(stencil, action, coordinates, special);
+        Chosen { stencil: (first + best) as u32, special, length }
     }
 
     /// The row chosen last.
-    pub(super) fn row<'b>(&'b mut self, stencils: &'b [Stencil], chosen: &Chosen) -> Row<'b> {
+    pub(super) fn row<'b>(
+        &'b mut self,
+        stencils: &'b [Stencil],
+        chosen: &Chosen,
+        action: Action<'_>,
+    ) -> Row<'b> {
         let RowBuffer { entries, coordinates } = &mut self.buffer;
         let of_row = (chosen.special, chosen.length as usize);
-        stencils[chosen.stencil as usize].row(&self.rows.ground, coordinates, of_row, entries)
+        stencils[chosen.stencil as usize].row(action.ground, coordinates, of_row, entries)
     }
 }
 
