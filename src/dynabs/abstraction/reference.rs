@@ -65,14 +65,16 @@ pub(super) fn build(
             let RowBuffer { mut entries, mut coordinates } = RowBuffer::default();
             ground.origin(target, &mut coordinates);
             let stencil = of_target(target).stencil(&ground, special(target).first, &of_cells);
-            rows.push_row(stencil.row(&ground, &coordinates, special(target), &mut entries));
+            let of_row = (special(target), 1 + inside[target.index()].1 as usize);
+            rows.push_row(stencil.row(&ground, &coordinates, of_row, &mut entries));
         })
         .into());
     };
     // Where the whole stencil is in the grid.
     let most = inside.iter().map(|(samples, _)| *samples).max().unwrap_or_default();
     let stencil: Arc<[Stencil]> = Arc::new([hits.stencil(&ground, of_outside.get(most), &of_cells)]);
-    let choose = |(): &mut (), (_, target): (usize, TargetId)| {
+    let choose = |(): &mut (), row: RowId| {
+        let (_, target) = targets.of_row(row);
         progress.advance(1);
         Chosen { stencil: 0, special: special(target), length: 1 + inside[target.index()].1 }
     };

@@ -42,13 +42,13 @@ pub(in super::super) struct Chosen {
 }
 
 impl StencilRows {
-    /// Rows for so many targets, chosen by ground and target, in parallel with what `start` gives each task.
+    /// Rows for so many targets, chosen in parallel with what `start` gives each task.
     pub(in super::super) fn new<T>(
         grounds: Arc<[Ground]>,
         stencils: Arc<[Stencil]>,
         targets: usize,
         start: impl Fn() -> T + Sync,
-        choose: impl Fn(&mut T, (usize, TargetId)) -> Chosen + Sync,
+        choose: impl Fn(&mut T, RowId) -> Chosen + Sync,
     ) -> Self {
         let count = grounds.len() * targets;
         let mut rows = Self {
@@ -67,7 +67,10 @@ impl StencilRows {
             let tasks = (first..count).step_by(ROWS_PER_TASK).take(TASKS).collect::<Vec<_>>();
             let of_task = |from: usize| -> Vec<Chosen> {
                 let mut own = start();
-                (from..count).take(ROWS_PER_TASK).map(|row| choose(&mut own, split(row, targets))).collect()
+                (from..count)
+                    .take(ROWS_PER_TASK)
+                    .map(|row| choose(&mut own, RowId::from_index(row)))
+                    .collect()
             };
             let parts: Vec<Vec<Chosen>> = tasks.into_par_iter().map(of_task).collect();
             parts.into_iter().flatten().for_each(|chosen| rows.push(chosen, &mut known));
@@ -90,11 +93,6 @@ impl StencilRows {
         self.lengths.push(length);
         self.entries += length as usize;
     }
-}
-
-/// The ground and the target of a row.
-fn split(row: usize, targets: usize) -> (usize, TargetId) {
-    (row / targets, TargetId::from_index(row % targets))
 }
 
 impl From<StencilRows> for RowSet {
@@ -120,14 +118,10 @@ impl ComputedRows for StencilRows {
         let stencil = &self.stencils[self.shapes[id.index()] as usize];
         let special = self.specials[self.special[id.index()] as usize];
         let RowBuffer { entries, coordinates } = buffer;
-        let (layer, target) = split(id.index(), self.targets);
+        let (layer, target) = (id.index() / self.targets, TargetId::from_index(id.index() % self.targets));
         let ground = &self.grounds[layer];
         ground.origin(target, coordinates);
-        if stencil.is_whole(self.row_len(id), special) {
-            stencil.whole_row(ground, coordinates, entries)
-        } else {
-            stencil.row(ground, coordinates, special, entries)
-        }
+        stencil.row(ground, coordinates, (special, self.row_len(id)), entries)
     }
 
     fn most_of_successors(&self, of_states: &[f64]) -> Vec<f64> {
