@@ -6,7 +6,9 @@
  *
 {% match law %}{% when LawSource::Steering(_) %} * looks at the state x after k groups of {{ group }} steps. If it returns STEER, u holds the inputs of the next
  * group, those of the first step first, each of them in U. Any other status is final and leaves u as it was:
-{% when LawSource::Centered(_) %} * looks at the state x after k steps.{% if memory.is_some() %} A run begins with *memory = {{ upper }}_START; what has been done so far
+{% if memory.is_some() %} * a run begins with *memory = {{ upper }}_START; what has been done so far is remembered there, so every state at the end of
+ * a group is looked at once, in order.
+{% endif %}{% when LawSource::Centered(_) %} * looks at the state x after k steps.{% if memory.is_some() %} A run begins with *memory = {{ upper }}_START; what has been done so far
  * is remembered there, so every state of the run is looked at once, in order.{% endif %} If it returns APPLY, u holds the input of the next step. Any other status is
  * final and leaves u as it was:
 {% endmatch %} *
@@ -16,7 +18,7 @@
  *   NO_ACTION  {% match law %}{% when LawSource::Steering(_) %}no target can be steered to from the whole cell of x without leaving U{% when LawSource::Centered(_) %}nothing can be done from the cell of x{% endmatch %}
  *   OVER       the horizon has passed; a horizon of 0 is unlimited, then k is ignored
  *
-{% match law %}{% when LawSource::Steering(_) %} * No allocation, no state, no library: every table is constant, and so is the memory used. Compile as C99
+{% match law %}{% when LawSource::Steering(_) %} * No allocation, no {% if memory.is_some() %}other {% endif %}state, no library: every table is constant, and so is the memory used. Compile as C99
  * without contraction of products and sums, and the results are those of dynabs bit by bit:
  *
  *   cc -std=c99 -O2 -ffp-contract=off -c {{ file }}

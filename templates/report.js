@@ -26,12 +26,15 @@ const policy = Object.fromEntries(Object.entries(data.policy).map(([k, v]) => [k
 const ranges = data.ranges && Object.fromEntries(Object.entries(data.ranges).map(([k, v]) => [k, unpack(v)]));
 const n = data.cells.length, TIME = -1;
 const numCells = data.cells.reduce((a, b) => a * b, 1);
-const keptSteps = values.length / numCells - 1;
+// One map of values, kinds and actions at the start, and one for each memory that runs may come with.
+const maps = 1 + (data.memories ?? 0);
+const keptSteps = values.length / numCells / maps - 1;
 
 const face = (j, i) => data.lower[j] + i * (data.upper[j] - data.lower[j]) / data.cells[j];
 const center = (j, i) => (face(j, i) + face(j, i + 1)) / 2;
 const cellOf = (coordinates) => coordinates.reduce((sum, i, j) => sum + i * data.strides[j], 0);
-const valueAt = (cell, step) => values[Math.min(step, keptSteps) * numCells + cell];
+const valueAt = (cell, step) => values[(view.map * (keptSteps + 1) + Math.min(step, keptSteps)) * numCells + cell];
+const kindOf = (cell) => kinds[view.map * numCells + cell];
 const level = (value) => Math.min(Math.floor(value * data.colours.length), data.colours.length - 1);
 const point = (target) => {
   if (data.targets.points) return data.targets.points[target];
@@ -45,9 +48,10 @@ const point = (target) => {
 };
 const best = (cell, step) => {
   const left = data.horizon === null ? 1 : data.horizon - step;
-  if (kinds[cell] !== 0 || left <= 0) return null;
+  if (kindOf(cell) !== 0 || left <= 0) return null;
   let found = null;
-  for (let e = policy.starts[cell]; e < policy.starts[cell + 1] && policy.left[e] <= left; e++) found = e;
+  const at = view.map * numCells + cell;
+  for (let e = policy.starts[at]; e < policy.starts[at + 1] && policy.left[e] <= left; e++) found = e;
   return found;
 };
 // Where the action of an entry of the policy leads, and what it is.
@@ -63,7 +67,7 @@ const enabled = (cell) => {
 };
 
 // What is shown: a plane through the picked cell.
-const view = {across: data.view.across, up: data.view.up, cell: [...data.view.slice], step: data.view.step, along: null};
+const view = {across: data.view.across, up: data.view.up, cell: [...data.view.slice], step: data.view.step, along: null, map: 0};
 const show = {arrows: true, runs: true, between: false, enabled: true};
 let touched = false;
 
@@ -186,7 +190,7 @@ const pick = (f) => {
   const i = view.across === TIME ? view.step : view.cell[view.across], j = view.cell[view.up];
   const cell = cellOf(view.cell), entry = best(cell, view.step);
   let text = "";
-  if (show.enabled && ranges && kinds[cell] === 0) {
+  if (show.enabled && ranges && kindOf(cell) === 0) {
     const places = enabled(cell).map((a) => project(f, i + 1, point(a)).map(at2).join(" "));
     text += `<path class="enabled" d="${[...new Set(places)].map((p) => `M${p}h0`).join("")}"/>`;
   }
@@ -227,13 +231,13 @@ const section = () => {
 };
 
 const facts = () => {
-  const cell = cellOf(view.cell), entry = best(cell, view.step), kind = ["ordinary", "goal", "unsafe"][kinds[cell]];
+  const cell = cellOf(view.cell), entry = best(cell, view.step), kind = (maps > 1 ? ["open", "done", "failed"] : ["ordinary", "goal", "unsafe"])[kindOf(cell)];
   const sides = view.cell.map((i, j) => `${data.names[j]} ∈ [${short(face(j, i))}, ${short(face(j, i + 1))})`);
   const value = (Math.floor(valueAt(cell, view.step) * 1e6) / 1e6).toFixed(6);
   const late = view.step > 0 ? ` at step ${view.step}${data.horizon === null ? "" : ` of ${data.horizon}`}` : "";
   const facts = {
     cell: sides.join(", "), kind, value: value + late,
-    enabled: kinds[cell] !== 0 ? "none needed" : ranges ? String(enabled(cell).length)
+    enabled: kindOf(cell) !== 0 ? "none needed" : ranges ? String(enabled(cell).length)
       : data.inputs ? String(data.inputs.length) : "left out of this page",
     best: entry === null ? "none" : action(entry),
     leads: entry === null ? "–" : tuple(next(entry)),
@@ -268,6 +272,10 @@ const controls = () => {
   const time = hasTime ? [[TIME, data.time]] : [];
   const options = (list, chosen) => list.map(([value, text]) => option(value, text, chosen)).join("");
   let html = "";
+  if (maps > 1) {
+    const memories = Array.from({length: maps - 1}, (_, m) => [m + 1, `with memory ${m}`]);
+    html += `<label>on arrival <select id="memory">${options([[0, "at the start"], ...memories], view.map)}</select></label>`;
+  }
   if (n > 1) {
     html += `<label>across <select id="across">${options([...names, ...time], view.across)}</select></label>`;
     html += `<label>up <select id="up">${options(names, view.up)}</select></label>`;
@@ -303,6 +311,8 @@ $("controls").addEventListener("input", ({target}) => {
     const id = target.id;
     controls();
     $(id).focus();
+  } else if (target.id === "memory") {
+    view.map = Number(target.value);
   } else if (target.id === "step") {
     view.step = Number(target.value);
   } else if (target.dataset.slice !== undefined) {
@@ -353,6 +363,7 @@ map.addEventListener("keydown", (event) => {
   }
   view.cell = [...data.view.slice];
   view.step = data.view.step;
+  view.map = 0;
   touched = true;
   controls();
   draw();

@@ -47,6 +47,7 @@ mod solver;
 mod soundness;
 mod steering;
 mod systems;
+mod target_tasks;
 mod tasks;
 mod type_names;
 mod validate;

@@ -36,7 +36,7 @@ fn main() -> ExitCode {
     );
     println!("|---|---|---|---|---|---|---|---|---|");
     let mut kept = true;
-    for layout in [Layout::Centers, Layout::Points] {
+    for layout in [Layout::Centers, Layout::Points, Layout::InOrder] {
         for noise in Noise::ALL {
             let failures = run(layout, noise, replications);
             kept &= failures.rows as f64 <= BETA * replications as f64;

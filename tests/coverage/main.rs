@@ -37,9 +37,11 @@ fn failures(layout: Layout, noise: Noise) -> Failures {
 #[test]
 fn claims_hold_together_as_often_as_promised() {
     let layouts = Noise::ALL.map(|noise| (Layout::Centers, noise)).into_iter();
-    for (layout, noise) in
-        layouts.chain([(Layout::Points, Noise::Gaussian), (Layout::Points, Noise::Bimodal)])
-    {
+    for (layout, noise) in layouts.chain([
+        (Layout::Points, Noise::Gaussian),
+        (Layout::Points, Noise::Bimodal),
+        (Layout::InOrder, Noise::Gaussian),
+    ]) {
         let failures = failures(layout, noise);
         let rate = |count: u64| count as f64 / REPLICATIONS as f64;
         assert!(rate(failures.rows) <= BETA, "{layout:?} {noise:?}: {failures:?}");

@@ -6,7 +6,7 @@ use dynabs::abstraction::{Abstraction, compile};
 use dynabs::partition::CellId;
 use dynabs::problem::Problem;
 use dynabs::statistics::{lower_bound, upper_bound};
-use imdp::model::StateId;
+use imdp::model::{RowId, StateId};
 use imdp::numeric::to_f64;
 use imdp::solver::{Answer, SolverOptions};
 use std::ops::AddAssign;
@@ -75,8 +75,9 @@ pub fn replicate(layout: Layout, noise: Noise, (samples, beta): (usize, f64), se
 /// less than the row says.
 fn violations(problem: &Problem, abstraction: &Abstraction, truths: &[Truth], less: f64) -> [bool; 3] {
     let mut violated = [false; 3];
-    for (row, truth) in abstraction.model.rows().to_stored().iter().zip(truths) {
-        let probabilities = truth.over(&row, problem, abstraction);
+    for (id, row) in (0..).map(RowId).zip(abstraction.model.rows().to_stored().iter()) {
+        let truth = &truths[abstraction.target(id) as usize];
+        let probabilities = truth.over(&row, problem, abstraction, abstraction.memory(id));
         for (i, &state) in row.successors.iter().enumerate() {
             let (family, upper) = match state {
                 StateId(0) => (2, row.upper[i] - less),

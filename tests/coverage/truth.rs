@@ -2,11 +2,12 @@
 
 use crate::noise::Noise;
 use dynabs::abstraction::Abstraction;
-use dynabs::partition::{CellId, CellKind};
+use dynabs::partition::CellId;
 use dynabs::problem::{
-    GivenSamples, InputSet, LinearDynamics, Partition, Probabilities, Problem, RegionBox, SampleKind,
-    TargetChoice, Task,
+    GivenSamples, InputSet, LinearDynamics, Logic, Partition, Probabilities, Problem, RegionBox, RegionParts,
+    SampleKind, ShapeParts, TargetChoice, Task,
 };
+use dynabs::task::Memory;
 use imdp::model::{Row, StateId};
 use imdp::numeric::to_f64;
 use imdp::solver::Policy;
@@ -21,12 +22,14 @@ pub enum Layout {
     Centers,
     /// A few points anywhere.
     Points,
+    /// The centers of all cells, for a task with a memory: to come to two regions one after the other.
+    InOrder,
 }
 
 /// The model with these samples.
 pub fn problem(layout: Layout, samples: &[f64], beta: f64) -> Problem {
     let targets = match layout {
-        Layout::Centers => TargetChoice::Centers,
+        Layout::Centers | Layout::InOrder => TargetChoice::Centers,
         Layout::Points => TargetChoice::Points(
             [[-1.3, 0.2], [0.1, 0.3], [0.9, -1.2], [1.7, 1.4], [-0.2, -0.1]].map(Vec::from).to_vec(),
         ),
@@ -39,10 +42,23 @@ pub fn problem(layout: Layout, samples: &[f64], beta: f64) -> Problem {
     let region = |lower: [f64; 2], upper: [f64; 2]| RegionBox { lower: lower.into(), upper: upper.into() };
     let goal = region([-0.4, -1.0], [0.4, 1.0]);
     let unsafe_ = region([1.2, -2.0], [2.0, -1.0]);
+    let task = match layout {
+        Layout::Centers | Layout::Points => Task::reach(vec![goal]),
+        Layout::InOrder => {
+            let named =
+                |name: &str, sides| RegionParts { name: name.into(), shapes: vec![ShapeParts::Box(sides)] };
+            let regions = vec![
+                named("first", region([-2.0, 0.0], [-0.4, 2.0])),
+                named("then", goal),
+                named("clear", region([0.4, -2.0], [1.2, 2.0])),
+            ];
+            Task::formula("F (first & (!clear U then))", Logic::Ltl, regions)
+        }
+    };
     Problem::builder(dynamics, InputSet::Box { lower: vec![-2.5, -1.5], upper: vec![2.5, 1.5] })
         .partition(Partition { lower: vec![-2.0, -2.0], upper: vec![2.0, 2.0], cells: vec![5, 4] })
         .targets(targets)
-        .task(Task::reach(vec![goal]).avoiding(vec![unsafe_]).within(HORIZON))
+        .task(task.avoiding(vec![unsafe_]).within(HORIZON))
         .probabilities(Probabilities::with_beta(beta).unwrap())
         .noise(GivenSamples { values: samples.to_vec(), of: SampleKind::Grouped })
         .build()
@@ -76,14 +92,19 @@ impl Truth {
         Self { cells: cells.collect() }
     }
 
-    /// The distribution over the states of a row, with all other mass moved to `failed`.
-    pub fn over(&self, row: &Row<'_>, problem: &Problem, abstraction: &Abstraction) -> Vec<f64> {
+    /// The distribution over the states of a row with a memory, with all other mass moved to `failed`.
+    pub fn over(
+        &self,
+        row: &Row<'_>,
+        problem: &Problem,
+        abstraction: &Abstraction,
+        memory: Memory,
+    ) -> Vec<f64> {
         let mut of_state = vec![0.0; abstraction.model.num_states()];
-        for (cell, kind) in problem.labels().iter() {
-            if kind != CellKind::Unsafe {
-                of_state[abstraction.state_of_cell[cell.index()].index()] += self.cells[cell.index()];
-            }
+        for (cell, _) in problem.labels().iter() {
+            of_state[abstraction.arrival(problem, Some(memory), cell).index()] += self.cells[cell.index()];
         }
+        of_state[0] = 0.0;
         let listed: f64 = row.successors.iter().map(|&s| of_state[s.index()]).sum();
         of_state[0] = 1.0 - listed;
         row.successors.iter().map(|&s| of_state[s.index()]).collect()
@@ -99,21 +120,21 @@ pub fn satisfaction(
     policy: &Policy,
     truths: &[Truth],
 ) -> Vec<f64> {
-    let kinds: Vec<CellKind> = problem.labels().iter().map(|(_, kind)| kind).collect();
+    let model = &abstraction.model;
+    let reached = model.labels().get("reached").unwrap();
     let mut values: Vec<f64> =
-        kinds.iter().map(|&kind| f64::from(u8::from(kind == CellKind::Goal))).collect();
+        (0..model.num_states()).map(|state| f64::from(u8::from(reached.contains(state)))).collect();
     for elapsed in (0..HORIZON).rev() {
-        let of_cell = |cell: usize| {
-            let state: StateId = abstraction.state_of_cell[cell];
-            let row = policy.row(abstraction.model.choices(), state, elapsed)?;
-            Some(truths[row.index()].cells.iter().zip(&values).map(|(p, v)| p * v).sum())
+        let of_state = |state: usize| {
+            let row = policy.row(model.choices(), StateId::from_index(state), elapsed)?;
+            let memory = abstraction.memory(row);
+            let value = |cell| values[abstraction.arrival(problem, Some(memory), CellId(cell)).index()];
+            let cells = truths[abstraction.target(row) as usize].cells.iter();
+            Some((0..).zip(cells).map(|(cell, p)| p * value(cell)).sum())
         };
-        let next = (0..values.len()).map(|cell| match kinds[cell] {
-            CellKind::Goal => 1.0,
-            CellKind::Unsafe => 0.0,
-            CellKind::Ordinary => of_cell(cell).unwrap_or(0.0),
-        });
-        values = next.collect();
+        values = (0..values.len())
+            .map(|state| if reached.contains(state) { 1.0 } else { of_state(state).unwrap_or(0.0) })
+            .collect();
     }
-    values
+    abstraction.state_of_cell.iter().map(|state| values[state.index()]).collect()
 }

@@ -160,6 +160,9 @@ fn export(
     } else {
         model = abstraction.with_costs(problem, model).map_err(|error| match error {
             CostError::Reward(_) => CliError::Failure(error.to_string()),
+            CostError::MicroSteps { .. } => CliError::Input(format!(
+                "{error}\n  Use --encoding flat, and regions whose faces are faces of cells."
+            )),
             _ => CliError::Input(error.to_string()),
         })?;
     }

@@ -4,7 +4,8 @@ use super::AbstractionError;
 use super::action_counts::TargetPlacements;
 use super::enabling::Enabling;
 use super::hazards::Hazards;
-use super::pac::Prepared;
+use super::pac::{Prepared, TaskEnds};
+use super::states::StateSpace;
 use super::steering::Steering;
 use super::windows::Windows;
 use crate::Warning;
@@ -47,6 +48,7 @@ impl Intervals<'_> {
 impl<'a> Base<'a> {
     pub(super) fn new(
         problem: &'a Problem,
+        states: &StateSpace,
         steering: &'a Steering,
         progress: &dyn Progress,
     ) -> Result<Self, AbstractionError> {
@@ -58,8 +60,9 @@ impl<'a> Base<'a> {
         let intervals = match problem.knowledge() {
             Knowledge::Samples { noise, beta, sweep, discard } => {
                 let statement = (beta, sweep, discard as usize);
-                let prepared =
-                    Prepared::new((problem, noise), statement, targets, &placements, hazards.as_ref())?;
+                let ends = TaskEnds::new(problem, states, targets);
+                let (actions, hazards) = ((targets, ends), hazards.as_ref());
+                let prepared = Prepared::new((problem, noise), statement, actions, &placements, hazards)?;
                 Intervals::Pac(noise, Box::new(prepared))
             }
             Knowledge::Distribution(components) => Intervals::Known(components),

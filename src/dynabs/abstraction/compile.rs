@@ -1,8 +1,7 @@
 //! The pipeline from problem to interval MDP.
 
 use super::base::{Base, Intervals};
-use super::enabled::EnabledActions;
-use super::outcomes::Outcomes;
+use super::enabling::Enabling;
 use super::pac::{PacRows, Preference};
 use super::states::{FAILED, REACHED, StateSpace, labels};
 use super::steering::Steering;
@@ -13,9 +12,9 @@ use crate::guarantee::{Event, Evidence, Guarantee};
 use crate::partition::{CellId, CellKind, Grid};
 use crate::problem::{Knowledge, Problem};
 use crate::system::FeedbackLaw;
-use crate::task::Aim;
+use crate::task::{Aim, Memory};
 use imdp::model::{
-    ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, ModelKind, Parts, RowRange, RowSet,
+    ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, ModelKind, Parts, RowId, RowRange, RowSet,
     StateId, StateSet,
 };
 use imdp::progress::Progress;
@@ -30,9 +29,9 @@ pub struct Abstraction {
     pub model: IntervalMdp,
     /// The task as a property of the model.
     pub property: Property,
-    /// The state that every cell of the partition became.
+    /// The state that every cell of the partition is at the start.
     pub state_of_cell: Vec<StateId>,
-    /// The targets, one per row.
+    /// The targets; there is a row for each of them with every memory of the task, memory after memory.
     pub targets: Targets,
     /// The law that steers to them.
     pub law: FeedbackLaw,
@@ -44,6 +43,7 @@ pub struct Abstraction {
     pub phases: Vec<(&'static str, Duration)>,
     /// What the user should know.
     pub warnings: Vec<Warning>,
+    states: StateSpace,
 }
 
 /// How long to look for values by which windows are chosen: a better choice is not worth more.
@@ -77,13 +77,13 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
     footprint.check()?;
     clock.lap("memory");
 
-    let Base { placements, intervals, enabling } = Base::new(problem, &steering, progress)?;
+    let states = state_space(problem);
+    let Base { placements, intervals, enabling } = Base::new(problem, &states, &steering, progress)?;
     let footprint = footprint.with_rooms(problem, &enabling.targets)?;
     clock.lap("enabled actions");
 
-    let states = state_space(problem);
     let targets = &enabling.targets;
-    let choices = choices(problem, &states, &enabling.actions);
+    let choices = choices(problem, &states, &enabling);
     let blocked = states.select(|state| is_blocked(problem, &states, &choices, state));
     clock.lap("choices");
 
@@ -116,16 +116,14 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
             (rows, Evidence::Published { beta_per_interval })
         }
         Intervals::Known(components) => {
-            let outcomes = Outcomes::new(problem.labels(), |cell| enabling.is_idle(cell));
             let tolerance = steering.law.steering_error(&steering.extent);
-            let steered = (targets, &tolerance[..]);
-            let (rows, unlisted) = known::build(problem, components, steered, &states, &outcomes, progress)?;
+            let (rows, unlisted) =
+                known::build(problem, components, (&enabling, &tolerance), &states, progress)?;
             clock.lap("rows");
             (rows, Evidence::Known { unlisted, both_sides: false })
         }
         Intervals::Pac(noise, prepared) => {
-            let outcomes = Outcomes::new(problem.labels(), |cell| enabling.is_idle(cell));
-            let pac = PacRows::new((problem, noise), *prepared, &enabling, placements, &states, &outcomes)?;
+            let pac = PacRows::new((problem, noise), *prepared, &enabling, placements, &states)?;
             let rows = pac.rows(Preference::LeastFailing, "rows", progress);
             clock.lap("rows");
             let values = scout(&model_of(rows)?, &property)?;
@@ -134,7 +132,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
             (rows, Evidence::Samples(pac.evidence()))
         }
     };
-    let mut warnings = warnings(problem, blocked.count_ones(..));
+    let mut warnings = warnings(problem, &enabling);
     warnings.extend(contradiction);
     let model = model_of(rows)?;
     clock.lap("model");
@@ -142,6 +140,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
         model,
         property,
         state_of_cell: state_of_cell(grid, &states),
+        states,
         targets: enabling.targets,
         law: steering.law,
         guarantee: Guarantee { event: Event::of(problem), evidence },
@@ -180,21 +179,21 @@ impl Abstraction {
         let steering = Steering::new(problem)?;
         let footprint = Footprint::new(problem, &steering);
         footprint.check()?;
-        let enabling = Base::new(problem, &steering, progress)?.enabling;
         let states = state_space(problem);
+        let enabling = Base::new(problem, &states, &steering, progress)?.enabling;
         let same = guarantee.event == Event::of(problem)
             && model.num_states() == states.len()
-            && model.rows().len() == enabling.targets.len()
-            && *model.choices() == choices(problem, &states, &enabling.actions);
+            && model.rows().len() == states.memories().len() * enabling.targets.len()
+            && *model.choices() == choices(problem, &states, &enabling);
         if !same {
             return Err(AbstractionError::Foreign);
         }
         clock.lap("enabled actions");
-        let blocked = states.select(|state| is_blocked(problem, &states, model.choices(), state));
         Ok(Self {
             property: task_property(problem),
             state_of_cell: state_of_cell(problem.grid(), &states),
-            warnings: warnings(problem, blocked.count_ones(..)),
+            warnings: warnings(problem, &enabling),
+            states,
             model,
             targets: enabling.targets,
             law: steering.law,
@@ -203,37 +202,68 @@ impl Abstraction {
             phases: clock.phases,
         })
     }
+
+    /// The state of a cell with a memory of the task, if a run may have it there.
+    pub fn state(&self, memory: Memory, cell: CellId) -> Option<StateId> {
+        self.states.state(memory, cell)
+    }
+
+    /// The state on arrival in a cell, with a memory before or at the start.
+    pub fn arrival(&self, problem: &Problem, before: Option<Memory>, cell: CellId) -> StateId {
+        self.states.arrival(problem.worst_task(), before, cell)
+    }
+
+    /// The actions that are enabled in a cell, whatever the memory, as rows with one of them.
+    pub fn ranges(&self, cell: CellId) -> &[RowRange] {
+        self.states.first(cell).map_or(&[], |state| self.model.choices().ranges(state))
+    }
+
+    /// The memory and the cell of a state, or `None` for one that stands for several.
+    pub fn pair(&self, state: StateId) -> Option<(Memory, CellId)> {
+        self.states.pair(state)
+    }
+
+    /// The memory with which the action of a row is taken.
+    pub fn memory(&self, row: RowId) -> Memory {
+        let layer = row.index() / self.targets.len().max(1);
+        self.states.memories().get(layer).copied().unwrap_or_default()
+    }
+
+    /// The target that the action of a row steers to.
+    pub fn target(&self, row: RowId) -> u32 {
+        (row.index() % self.targets.len().max(1)) as u32
+    }
 }
 
 fn state_space(problem: &Problem) -> StateSpace {
     match problem.knowledge() {
-        Knowledge::Samples { .. } | Knowledge::Distribution(_) => StateSpace::merged(problem.labels()),
+        Knowledge::Samples { .. } | Knowledge::Distribution(_) => StateSpace::of_task(problem.worst_task()),
         Knowledge::Published { .. } => StateSpace::complete(problem.grid()),
     }
 }
 
 fn state_of_cell(grid: &Grid, states: &StateSpace) -> Vec<StateId> {
-    (0..grid.num_cells()).map(|cell| states.of_cell(CellId(cell))).collect()
+    (0..grid.num_cells()).map(|cell| states.at_start(CellId(cell))).collect()
 }
 
-fn choices(problem: &Problem, states: &StateSpace, enabled: &EnabledActions) -> Choices {
+fn choices(problem: &Problem, states: &StateSpace, enabling: &Enabling) -> Choices {
     let mut builder = ChoicesBuilder::with_capacity(states.len());
     (0..states.heads()).for_each(|_| builder.push_absorbing());
-    let mut counts = enabled.ranges_per_cell.iter();
-    let mut ranges = enabled.ranges.as_slice();
-    for (_, cell) in states.cells() {
+    for (_, (memory, cell)) in states.pairs() {
         if problem.labels().kind(cell) != CellKind::Ordinary {
             // The published tool draws goal and unsafe cells without choices.
             builder.finish_state();
             continue;
         }
-        let (own, rest): (&[RowRange], _) =
-            ranges.split_at(counts.next().copied().unwrap_or_default() as usize);
-        ranges = rest;
+        let own = enabling.actions_of(cell);
         if own.is_empty() {
             builder.push_absorbing();
         } else {
-            own.iter().for_each(|&range| builder.push_range(range));
+            let first_row = states.layer(memory) * enabling.targets.len();
+            let shifted = |row: RowId| RowId::from_index(first_row + row.index());
+            own.iter().for_each(|range| {
+                builder.push_range(RowRange { first: shifted(range.first), last: shifted(range.last) });
+            });
             builder.finish_state();
         }
     }
@@ -263,16 +293,16 @@ fn outcome_states(
         (of_kind(CellKind::Goal, &[StateId(2)]), of_kind(CellKind::Unsafe, &[StateId(0), StateId(1)]))
     } else {
         // A run that starts in a cell in which nothing is enabled is over.
-        let mut failed = of_kind(CellKind::Unsafe, &[FAILED]);
-        failed.union_with(blocked);
-        (of_kind(CellKind::Goal, &[REACHED]), failed)
+        let mut failed = blocked.clone();
+        failed.insert(FAILED.index());
+        (states.select(|state| state == REACHED && states.heads() > 1), failed)
     }
 }
 
 /// `Pmaxmin=? [ !"failed" U<=k "reached" ]`, or `G<=k !"failed"`, compared with the threshold if there is one.
 fn task_property(problem: &Problem) -> Property {
     let (safe, steps) = (StateFormula::negation(StateFormula::label("failed")), problem.horizon());
-    let path = match problem.objective().aim() {
+    let path = match problem.worst_task().aim() {
         Aim::Stay => PathFormula::Globally { formula: safe, steps },
         Aim::Reach | Aim::End => {
             PathFormula::Until { left: safe, right: StateFormula::label("reached"), steps }
@@ -288,8 +318,10 @@ fn task_property(problem: &Problem) -> Property {
     }
 }
 
-fn warnings(problem: &Problem, blocked: usize) -> Vec<Warning> {
+fn warnings(problem: &Problem, enabling: &Enabling) -> Vec<Warning> {
     let mut warnings = Vec::new();
+    let ordinary = problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
+    let blocked = ordinary.filter(|(cell, _)| enabling.actions_of(*cell).is_empty()).count();
     if blocked > 0 {
         let ordinary = problem.labels().count(CellKind::Ordinary);
         warnings.push(Warning::NothingEnabled { cells: blocked, ordinary });

@@ -10,12 +10,15 @@ use super::targets::Targets;
 use super::windows::Windows;
 use crate::partition::{CellId, CellKind};
 use crate::problem::Problem;
+use imdp::model::RowRange;
 use imdp::progress::Progress;
 
 /// The enabled actions of all ordinary cells.
 pub(super) struct Enabling {
     /// In the order of the cells.
-    pub(super) actions: EnabledActions,
+    actions: EnabledActions,
+    /// Per cell of the partition, how many of their ranges come before its own; one more entry than cells.
+    starts: Vec<usize>,
     /// What the actions steer to.
     pub(super) targets: Targets,
     /// The rooms that some of them need.
@@ -60,7 +63,17 @@ impl Enabling {
                 return Err(AbstractionError::NothingClear { group_steps: problem.group_steps() });
             }
         }
-        Ok(Self { actions, targets, rooms, idle })
+        let mut starts = vec![0; idle.len() + 1];
+        for (cell, &count) in ordinary.iter().zip(&actions.ranges_per_cell) {
+            starts[cell.index() + 1] = count as usize;
+        }
+        (0..idle.len()).for_each(|cell| starts[cell + 1] += starts[cell]);
+        Ok(Self { actions, starts, targets, rooms, idle })
+    }
+
+    /// The enabled actions of a cell, ascending; none if it is not ordinary.
+    pub(super) fn actions_of(&self, cell: CellId) -> &[RowRange] {
+        &self.actions.ranges[self.starts[cell.index()]..self.starts[cell.index() + 1]]
     }
 
     /// Whether the law has no action in an ordinary cell: whatever the samples.

@@ -26,6 +26,9 @@ const ENTRY_BYTES: u64 = 60;
 /// Per row that is a shift of a stencil: which, its length, what its special states get; in two models.
 const SHIFTED_ROW_BYTES: u64 = 24;
 
+/// Per memory and cell: its state, what landing there means, values.
+const PAIR_BYTES: u64 = 64;
+
 /// How many cells say how many ranges all have.
 const PROBED_CELLS: u32 = 512;
 
@@ -40,13 +43,18 @@ impl Footprint {
     pub(super) fn new(problem: &Problem, steering: &Steering) -> Self {
         let grid = problem.grid();
         let field = field_of_targets(problem);
-        let targets = steering.targets.len() as u64;
+        let (targets, memories) = (steering.targets.len() as u64, memories(problem));
         let need = |what, bytes, field| Need { what, bytes, field };
-        let needs = vec![
+        let ranges = ranges(problem, steering).saturating_mul(memories);
+        let mut needs = vec![
             Need::of_cells(grid),
             need("the targets", targets * TARGET_BYTES, field),
-            need("the enabled actions", ranges(problem, steering).saturating_mul(RANGE_BYTES), field),
+            need("the enabled actions", ranges.saturating_mul(RANGE_BYTES), field),
         ];
+        if memories > 1 {
+            let bytes = memories.saturating_mul(u64::from(grid.num_cells())).saturating_mul(PAIR_BYTES);
+            needs.push(need("what the task remembers in all cells", bytes, "/task"));
+        }
         Self { needs }
     }
 
@@ -58,7 +66,8 @@ impl Footprint {
     /// And what its rows take; by an estimate, if they are not shifts of one another.
     pub(super) fn with_rows(mut self, problem: &Problem, steering: &Steering) -> Self {
         let targets = &steering.targets;
-        let bytes = bytes_of_rows(problem, targets, targets.len() as u64);
+        let rows = (targets.len() as u64).saturating_mul(memories(problem));
+        let bytes = bytes_of_rows(problem, targets, rows);
         self.needs.push(Need { what: "the rows of the model", bytes, field: field_of_targets(problem) });
         self
     }
@@ -67,7 +76,7 @@ impl Footprint {
     pub(super) fn with_rooms(mut self, problem: &Problem, targets: &Targets) -> Result<Self, TooLarge> {
         let again = (targets.len() - targets.num_originals()) as u64;
         if again > 0 {
-            let bytes = bytes_of_rows(problem, targets, again);
+            let bytes = bytes_of_rows(problem, targets, again.saturating_mul(memories(problem)));
             let what = "rows for actions that need room in between";
             self.take(Need { what, bytes, field: field_of_targets(problem) })?;
         }
@@ -104,6 +113,11 @@ impl Footprint {
     pub fn bytes(&self) -> u64 {
         self.needs.iter().fold(0, |sum, need| sum.saturating_add(need.bytes))
     }
+}
+
+/// How many memories the task has in the model.
+fn memories(problem: &Problem) -> u64 {
+    problem.worst_task().memories().into()
 }
 
 /// What rows with so many entries in all take.

@@ -10,12 +10,12 @@
 //! `[a_j − d_j − t_j, b_j − d_j + t_j)`, whose masses are enclosed rigorously ([`Distribution::mass`]); products are rounded outwards.
 //! `reached` gets the sums over goal cells, and `failed`, which is what remains, at most 1 less the lower bounds of all others. ∎
 
+use super::enabling::Enabling;
 use super::footprint::need_of_rows;
-use super::outcomes::{Outcome, Outcomes};
+use super::grounds::grounds;
 use super::row_tasks::build_rows;
 use super::states::{FAILED, REACHED, StateSpace};
 use super::stencil::{BoxCount, Chosen, Ground, Special, Stencil, StencilRows};
-use super::targets::Targets;
 use super::{AbstractionError, CellBox};
 use crate::noise::known::Distribution;
 use crate::partition::GridAxis;
@@ -31,50 +31,46 @@ const NEGLIGIBLE: f64 = 1e-10;
 /// Written bounds have this many significant digits, rounded outwards.
 const DIGITS: usize = 10;
 
-/// One row per target, and how much mass is not listed where nothing is in the way.
+/// One row per memory and target, and how much mass is not listed where nothing is in the way.
 pub(super) fn build(
     problem: &Problem,
     components: &[Option<Distribution>],
-    (targets, tolerance): (&Targets, &[f64]),
+    (enabling, tolerance): (&Enabling, &[f64]),
     states: &StateSpace,
-    outcomes: &Outcomes,
     progress: &dyn Progress,
 ) -> Result<(RowSet, f64), AbstractionError> {
-    let grid = problem.grid();
-    let shared = targets.alignment().is_some();
+    let (grid, targets) = (problem.grid(), &enabling.targets);
+    let (shared, count) = (targets.alignment().is_some(), states.memories().len() * targets.len());
     if !shared {
-        need_of_rows(problem, targets.len() as u64 * u64::from(grid.num_cells())).check()?;
+        need_of_rows(problem, count as u64 * u64::from(grid.num_cells())).check()?;
     }
-    let ground =
-        Ground::new(grid, shared.then_some(targets), states.heads(), |cell| match outcomes.of(cell) {
-            Outcome::Lost => FAILED,
-            Outcome::Reached => REACHED,
-            Outcome::Open => states.of_cell(cell),
-        });
+    let grounds = grounds(problem, enabling, states, shared.then_some(targets));
     let noise = Noise { components, axes: grid.axes(), tolerance };
-    progress.start("rows", targets.len() as u64);
+    progress.start("rows", count as u64);
     let found = match targets.alignment().zip(targets.axes()) {
         Some((alignment, axes)) => {
             let along = |j: usize| {
                 let last = alignment[j].first_cell + alignment[j].stride * (axes[j].len() as u32 - 1);
-                let range = (-(last as i32), ground.cells[j] - 1 - alignment[j].first_cell as i32);
+                let range = (-(last as i32), grounds[0].cells[j] - 1 - alignment[j].first_cell as i32);
                 noise.along(j, &alignment[j].phase, range)
             };
-            let stencil = stencil(&ground, &(0..axes.len()).map(along).collect::<Vec<_>>());
+            let stencil = stencil(&grounds[0], &(0..axes.len()).map(along).collect::<Vec<_>>());
             let usual = stencil.usual().1;
-            let special = [FAILED, REACHED].map(|state| BoxCount::new(&ground, |own| own == state));
+            let counts = |ground| [FAILED, REACHED].map(|state| BoxCount::new(ground, |own| own == state));
+            let special: Vec<[BoxCount; 2]> = grounds.iter().map(counts).collect();
             let stencils: Arc<[Stencil]> = Arc::new([stencil]);
-            let choose = |origin: &mut Vec<i32>, target: usize| {
-                ground.origin(target, origin);
+            let choose = |origin: &mut Vec<i32>, row: usize| {
+                let memory = row / targets.len();
+                grounds[memory].origin(row % targets.len(), origin);
                 progress.advance(1);
-                chosen(&ground, &stencils[0], origin, &special)
+                chosen(&grounds[memory], &stencils[0], origin, &special[memory])
             };
-            let rows =
-                StencilRows::new(Arc::new(ground.clone()), stencils.clone(), targets.len(), Vec::new, choose);
+            let rows = StencilRows::new(grounds.clone(), stencils.clone(), targets.len(), Vec::new, choose);
             (rows.into(), usual)
         }
         None => {
-            let rows = build_rows(targets.len(), progress, |target, rows| {
+            let rows = build_rows(count, progress, |row, rows| {
+                let (ground, target) = (&grounds[row / targets.len()], row % targets.len());
                 let mut point = vec![0.0; grid.dimension()];
                 targets.point(target, &mut point);
                 let along = |j: usize| {
@@ -82,11 +78,11 @@ pub(super) fn build(
                     let position = (from_dyadic(point[j]).unwrap_or_default() - axis.lower()) / axis.width();
                     noise.along(j, &position, (0, ground.cells[j] - 1))
                 };
-                let stencil = stencil(&ground, &(0..point.len()).map(along).collect::<Vec<_>>());
+                let stencil = stencil(ground, &(0..point.len()).map(along).collect::<Vec<_>>());
                 let RowBuffer { mut entries, mut coordinates } = RowBuffer::default();
                 ground.origin(target, &mut coordinates);
-                let (special, _) = merged(&ground, &stencil, &coordinates);
-                rows.push_row(stencil.row(&ground, &coordinates, special, &mut entries));
+                let (special, _) = merged(ground, &stencil, &coordinates);
+                rows.push_row(stencil.row(ground, &coordinates, special, &mut entries));
             });
             (rows.into(), 2.0 * grid.dimension() as f64 * NEGLIGIBLE)
         }

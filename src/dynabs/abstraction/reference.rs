@@ -37,7 +37,7 @@ pub(super) fn build(
         need_of_rows(problem, targets.len() as u64 * u64::from(grid.num_cells())).check()?;
     }
     let ground =
-        Ground::new(grid, landings.shared().map(|_| targets), states.heads(), |cell| states.of_cell(cell));
+        Ground::new(grid, landings.shared().map(|_| targets), states.heads(), |cell| states.at_start(cell));
     let hits = landings.shared().map(|landing| Hits::new(Cow::Borrowed(landing), &ground));
     let of_target = |target| {
         let (landing, _) = landings.of(targets, target, grid, &mut vec![0; grid.dimension()]);
@@ -73,7 +73,7 @@ pub(super) fn build(
         progress.advance(1);
         Chosen { stencil: 0, special: special(target), length: 1 + inside[target].1 }
     };
-    Ok(StencilRows::new(Arc::new(ground), stencil, targets.len(), || (), choose).into())
+    Ok(StencilRows::new(Arc::new([ground]), stencil, targets.len(), || (), choose).into())
 }
 
 /// The cells that samples land in.

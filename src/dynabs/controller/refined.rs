@@ -61,10 +61,14 @@ impl Controller {
         let policy = answer.solution.policy.as_ref().ok_or(ControllerError::NoPolicy)?;
         let bound = |state: &StateId| answer.values.lower[state.index()];
         let bounds: Vec<f64> = abstraction.state_of_cell.iter().map(bound).collect();
+        let is_open = |cell: CellId| abstraction.pair(abstraction.state_of_cell[cell.index()]).is_some();
         let ordinary = problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
         let bound = match problem.initial_cell() {
             Some(cell) => bounds[cell.index()],
-            None => ordinary.map(|(cell, _)| bounds[cell.index()]).fold(1.0, f64::min),
+            None => {
+                let starts = ordinary.map(|(cell, _)| cell).filter(|&cell| is_open(cell));
+                starts.map(|cell| bounds[cell.index()]).fold(1.0, f64::min)
+            }
         };
         let grid = problem.grid();
         Ok(Self {
@@ -74,7 +78,7 @@ impl Controller {
             horizon: problem.horizon(),
             group_steps: problem.group_steps(),
             law: Law::Steering(SteeringLaw::new(&abstraction.law, points(&abstraction.targets))),
-            schedule: Schedule::new(abstraction, policy),
+            schedule: Schedule::new(problem, abstraction, policy),
             bounds,
             guarantee: abstraction.guarantee.clone(),
             promised: Bound { initial_state: problem.initial_state().map(<[f64]>::to_vec), bound },

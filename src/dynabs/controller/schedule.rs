@@ -1,6 +1,9 @@
 //! Which action a cell takes, and when.
 
 use crate::abstraction::Abstraction;
+use crate::partition::CellId;
+use crate::problem::Problem;
+use crate::task::{Aim, Memory};
 use imdp::solver::Policy;
 
 /// An action that holds from some number of steps left upwards, until the next entry of the cell.
@@ -21,17 +24,45 @@ pub(super) struct Schedule {
 }
 
 impl Schedule {
-    pub(super) fn new(abstraction: &Abstraction, policy: &Policy) -> Self {
+    /// The actions of a policy on the model of a problem whose actions are targets.
+    pub(super) fn new(problem: &Problem, abstraction: &Abstraction, policy: &Policy) -> Self {
+        let (task, cells) = (problem.cell_task(), problem.grid().num_cells());
         let choices = abstraction.model.choices();
+        // States that merge cells have no choices, so every entry is of one cell.
+        let action = |state, choice| choices.row_of_choice(state, choice).map(|row| abstraction.target(row));
         let mut schedule = Self { starts: vec![0], entries: vec![] };
-        for &state in &abstraction.state_of_cell {
-            for &(steps_left, choice) in policy.changes(state) {
-                // States that merge cells have no choices, so every entry is of one cell.
-                if let Some(row) = choices.row_of_choice(state, choice) {
-                    schedule.entries.push(Entry { steps_left, action: row.0 });
+        for memory in 0..task.memories() {
+            for cell in (0..cells).map(CellId) {
+                match (task.aim(), problem.horizon()) {
+                    (Aim::End, Some(horizon)) => {
+                        // Memories of the model count the steps: each has the actions of one.
+                        let first = schedule.entries.len();
+                        for steps_left in 1..=horizon {
+                            let timed = (horizon - steps_left) as Memory * task.memories() + memory;
+                            let state = abstraction.state(timed, cell);
+                            let choice = state
+                                .and_then(|state| Some((state, policy.choice(state, horizon - steps_left)?)));
+                            let Some(action) = choice.and_then(|(state, choice)| action(state, choice))
+                            else {
+                                continue;
+                            };
+                            if schedule.entries[first..].last().is_none_or(|entry| entry.action != action) {
+                                schedule.entries.push(Entry { steps_left, action });
+                            }
+                        }
+                    }
+                    _ => {
+                        let state = abstraction.state(memory, cell);
+                        let changes = state.iter().flat_map(|&state| {
+                            policy.changes(state).iter().map(move |&(left, choice)| (left, state, choice))
+                        });
+                        schedule.entries.extend(changes.filter_map(|(steps_left, state, choice)| {
+                            action(state, choice).map(|action| Entry { steps_left, action })
+                        }));
+                    }
                 }
+                schedule.starts.push(schedule.entries.len());
             }
-            schedule.starts.push(schedule.entries.len());
         }
         schedule
     }

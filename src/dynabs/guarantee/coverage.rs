@@ -17,8 +17,11 @@
 //!   needs `B` true there in the model, or both `A` and `B` false by their meaning: then the event is decided on arrival.
 //!
 //! By its *meaning* in `reached`, the label `reached` is true and `failed` is false; variables and all other labels have none.
+//! If the task is to keep something, `reached` means that it is kept for ever, whatever comes: both labels stay as they are, and
+//! an event that is false on arrival by its meaning is decided.
 
 use super::{Evidence, Gap, Guarantee};
+use crate::task::Aim;
 use imdp::model::{IntervalMdp, StateSet};
 use imdp::property::{PathFormula, Property, PropertyError, QueryKind, StateFormula};
 
@@ -44,7 +47,7 @@ impl Guarantee {
         if matches!(self.evidence, Evidence::Published { .. }) {
             return Ok(Coverage::None(vec![Gap::Published]));
         }
-        let event = Event::new(&objective.path, model);
+        let event = Event::new(&objective.path, model, self.event.aim == Aim::Stay);
         let (QueryKind::Until { goal, .. } | QueryKind::Next { goal }) = &query.kind;
         let gaps = match query.resolution.nature_maximises() {
             false => event.gaps_below(goal),
@@ -75,10 +78,12 @@ struct Event<'a> {
     at_the_end: Option<bool>,
     /// Whether the run is over at the start, but the event looks one step ahead.
     starts_over: bool,
+    /// Whether nothing changes any more in `reached`.
+    lasts: bool,
 }
 
 impl<'a> Event<'a> {
-    fn new(path: &PathFormula, model: &'a IntervalMdp) -> Self {
+    fn new(path: &PathFormula, model: &'a IntervalMdp, lasts: bool) -> Self {
         let labelled = |name| model.labels().get(name).filter(|states| !states.is_clear());
         let (failed, reached) = (labelled("failed"), labelled("reached"));
         let is_next = matches!(path, PathFormula::Next(_));
@@ -89,7 +94,7 @@ impl<'a> Event<'a> {
             PathFormula::Until { left, right, .. } => (meaning(left), meaning(right)),
         };
         let starts_over = is_next && reached.is_some_and(|states| !states.is_disjoint(model.initial()));
-        Self { failed, reached, on_the_way, at_the_end, starts_over }
+        Self { failed, reached, on_the_way, at_the_end, starts_over, lasts }
     }
 
     /// Why a lower bound of the event's probability is none for the system.
@@ -116,7 +121,7 @@ impl<'a> Event<'a> {
             gaps.push(Gap::FalseInFailed);
         }
         if self.reached.is_some_and(|reached| !reached.is_subset(goal)) {
-            if self.starts_over || self.on_the_way == Some(true) {
+            if self.starts_over || self.on_the_way == Some(true) && !self.lasts {
                 gaps.push(Gap::AfterReached);
             }
             if self.on_the_way.is_none() || self.at_the_end != Some(false) {

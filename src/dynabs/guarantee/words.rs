@@ -18,6 +18,20 @@ const FIXED_BEFOREHAND: &[&str] = &[
     "sweep, the number of settings that are compiled with these samples",
 ];
 
+/// The same for tasks over named regions.
+const FIXED_BEFOREHAND_TASK: &[&str] = &[
+    FIXED_BEFOREHAND[0],
+    FIXED_BEFOREHAND[1],
+    "the task and its regions",
+    FIXED_BEFOREHAND[3],
+    FIXED_BEFOREHAND[4],
+    FIXED_BEFOREHAND[5],
+    FIXED_BEFOREHAND[6],
+    FIXED_BEFOREHAND[7],
+    FIXED_BEFOREHAND[8],
+    FIXED_BEFOREHAND[9],
+];
+
 /// What the promise presupposes of noise and samples.
 const ASSUMES: &[&str] = &[
     "the samples are independent of each other and all have the distribution of the noise at run time",
@@ -101,6 +115,9 @@ impl Guarantee {
             ),
         }];
         let d = self.event.group_steps;
+        if d > 1 && self.event.task.is_some() {
+            sentences.push(format!("Of regions it counts where the state is at the end of every {d} steps."));
+        }
         if d > 1 {
             sentences.push(match (self.event.safety, self.event.outside) {
                 (Safety::EveryStep, Safety::EveryStep) => {
@@ -169,6 +186,7 @@ impl Guarantee {
     pub fn fixed_beforehand(&self) -> &'static [&'static str] {
         match self.evidence {
             Evidence::Samples(SampleEvidence { components: Some(_), .. }) => FIXED_BEFOREHAND_INPUTS,
+            Evidence::Samples(_) if self.event.task.is_some() => FIXED_BEFOREHAND_TASK,
             Evidence::Samples(_) => FIXED_BEFOREHAND,
             Evidence::Known { .. } | Evidence::Published { .. } => &[],
         }

@@ -105,6 +105,11 @@ impl Question<'_> {
         (0..cells).into_par_iter().with_min_len(1 << 12).map(arrival).collect()
     }
 
+    /// The lower bounds on arrival in each cell with a memory before, with all steps left.
+    pub fn lower_on_arrival(&self, before: Memory, solution: &LandingSolution) -> Vec<f64> {
+        self.arrivals::<Lower>(Some(before), &solution.with_memory.lower)
+    }
+
     /// One step with every memory.
     pub(super) fn step<S: Side>(&self, landing: &Landing, values: &[f64]) -> Vec<Best> {
         let best = |memory| landing.best::<S>(self.images, &self.arrivals::<S>(Some(memory), values));

@@ -144,6 +144,7 @@ impl ProblemBuilder {
             task = checked_task::CheckedTask::new(&wanted, &grid, group_steps)?;
         }
         checked_task::require_steerable(&wanted, group_steps, &self.probabilities)?;
+        let worst_task = checked_task::at_worst(&task)?;
         let system = group(&step_system, group_steps);
         let input = step_input.power(group_steps);
         let stabilizer =
@@ -169,6 +170,7 @@ impl ProblemBuilder {
             grid,
             labels: task.labels,
             cell_task: task.cell_task,
+            worst_task,
             objective: task.objective,
             unsafe_: task.unsafe_,
             outside_is_unsafe: task.outside_is_unsafe,

@@ -3,11 +3,11 @@
 use super::automaton::{automaton, named_regions};
 use super::problem::Objective;
 use super::regions::{RegionBox, region, regions, widths};
-use super::task::{Hazard, Horizon, Task, Wanted};
+use super::task::{Hazard, Horizon, Logic, Task, Wanted};
 use super::{PlantNoise, Probabilities, StepNoise};
 use crate::memory::Need;
 use crate::partition::{CellId, CellKind, CellLabels, Grid, Region, first_overlap, near_misses};
-use crate::task::{self, AutomatonTask, CellTask, NamedRegion, Safety, Shape};
+use crate::task::{self, AutomatonTask, CellTask, NamedRegion, Safety, Shape, Straddling};
 use crate::{Diagnostic, Warning};
 use imdp::automaton::Dfa;
 use imdp::property::Probability;
@@ -79,28 +79,76 @@ pub(super) fn require_steerable(
     d: usize,
     probabilities: &Probabilities,
 ) -> Result<(), Diagnostic> {
-    let inputs = "With \"actions\": \"inputs\" there are tasks of all types.";
+    let is_grouped = task.check == Some(Safety::GroupedInstants);
+    let every = format!("what is the case at the end of every {d} steps only");
     match &task.aim {
-        Wanted::Reach { .. } => Ok(()),
-        Wanted::Stay { .. } if matches!(probabilities, Probabilities::Reference { .. }) => {
-            let found = "a task to stay somewhere in mode \"reference\"";
-            Err(Diagnostic::at("/task/type", found, "\"reach\" there: the published tool has no other"))
+        Wanted::Reach { .. } => return Ok(()),
+        _ if matches!(probabilities, Probabilities::Reference { .. }) => {
+            let found = "a task that is not to reach a goal, in mode \"reference\"";
+            return Err(Diagnostic::at(
+                "/task/type",
+                found,
+                "\"reach\" there: the published tool has no other",
+            ));
         }
         Wanted::Stay { safe } => {
             let in_partition = safe.is_empty() && task.unsafe_.contains(&Hazard::Outside);
-            if d == 1 || in_partition || task.check == Some(Safety::GroupedInstants) {
+            if d == 1 || in_partition || is_grouped {
                 return Ok(());
             }
             let found = format!("a region to stay in at the end of every {d} steps only");
-            Err(Diagnostic::at("/task/safe", found, "the whole partition, at every step").remedy(
+            return Err(Diagnostic::at("/task/safe", found, "the whole partition, at every step").remedy(
                 "Leave \"safe\" out, list \"outside\" and what lies around the region as unsafe, or accept \"check\": \"grouped\".",
-            ))
+            ));
         }
-        _ => {
-            let found = "a task with a memory, for actions that steer to targets";
-            Err(Diagnostic::at("/task/type", found, "\"reach\" or \"stay\"").remedy(inputs))
+        Wanted::ReachAt { .. } => {}
+        // Who has come somewhere at the end of a group has come there.
+        Wanted::Sequence { legs } if legs.iter().all(|leg| leg.avoid.is_empty()) => {}
+        _ if d == 1 || is_grouped => {}
+        Wanted::Sequence { .. } => {
+            let found = format!("regions to avoid, which are known as {every}");
+            return Err(Diagnostic::at("/task/sequence", found, "regions to come to").remedy(
+                "List what is to be avoided on all of the way as unsafe, accept \"check\": \"grouped\", or use \"actions\": \
+                 \"inputs\", which look at every step.",
+            ));
+        }
+        Wanted::Formula { .. } | Wanted::Automaton { .. } => {
+            let expected = "a task that looks at every step, which one step of the model must be";
+            return Err(Diagnostic::at("/task/type", every, expected).remedy(
+                "Accept \"check\": \"grouped\", or use \"actions\": \"inputs\", which look at every step.",
+            ));
         }
     }
+    let ends = matches!(task.aim, Wanted::ReachAt { .. } | Wanted::Formula { logic: Logic::Ltlf, .. });
+    match task.horizon {
+        Horizon::Steps(steps) if ends && !steps.is_multiple_of(d as u64) => Err(Diagnostic::at(
+            "/task/horizon",
+            steps.to_string(),
+            format!("a multiple of {d}, the number of steps that are grouped into one: the last one decides"),
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// The task with the worst standing in every cell.
+pub(super) fn at_worst(task: &CheckedTask) -> Result<CellTask, Diagnostic> {
+    task.cell_task.at_worst(task.horizon).map_err(|Straddling { cell, regions }| {
+        let of_task = match &task.objective {
+            Objective::Automaton(task) => task.regions(),
+            Objective::Reach { .. } | Objective::Stay { .. } => &[],
+        };
+        let cut = of_task.iter().enumerate().filter(|(bit, _)| regions >> bit & 1 == 1);
+        let names: Vec<_> = cut.map(|(_, region)| region.name.as_str()).collect();
+        let found = format!(
+            "cell {}, which the face of {} cuts: whether it is worse to be inside or outside depends on what comes",
+            cell.index(),
+            names.join(" or ")
+        );
+        Diagnostic::at("/task", found, "cells that are inside or outside").remedy(
+            "Align the faces of the region with those of cells, or use \"actions\": \"inputs\", where nature picks in a step of \
+             its own.",
+        )
+    })
 }
 
 /// When the unsafe region is avoided, if `check` was asked for and `d` steps are grouped.

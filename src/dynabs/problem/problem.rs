@@ -24,6 +24,7 @@ pub struct Problem {
     pub(super) grid: Grid,
     pub(super) labels: CellLabels,
     pub(super) cell_task: CellTask,
+    pub(super) worst_task: CellTask,
     pub(super) objective: Objective,
     pub(super) unsafe_: Vec<Region>,
     pub(super) outside_is_unsafe: bool,
@@ -177,6 +178,12 @@ impl Problem {
     /// What the memory of the task becomes in each cell.
     pub fn cell_task(&self) -> &CellTask {
         &self.cell_task
+    }
+
+    /// The same as models have it: with the worst standing in every cell, and memories that count (grouped) steps if the last
+    /// one decides.
+    pub fn worst_task(&self) -> &CellTask {
+        &self.worst_task
     }
 
     /// What is wanted.

@@ -8,13 +8,15 @@ use super::palette::{FIRST_LIGHT_LEVEL, LEVELS, colour};
 use super::paths::class;
 use super::scene::Scene;
 use super::sides::sides;
+use super::values::StepValues;
 use super::view::{Axis, View};
 use crate::partition::{CellId, CellKind, Region};
+use crate::task::Memory;
 use data_encoding::BASE64;
 use serde_json::{Value, json};
 
-/// Beyond this many cells a page is static.
-const MOST_CELLS: u32 = 300_000;
+/// Beyond this many cells, counted for each memory, a page is static.
+const MOST_CELLS: u64 = 300_000;
 
 /// The most ranges of enabled actions that are embedded.
 const MOST_RANGES: usize = 400_000;
@@ -35,20 +37,21 @@ pub(super) struct EmbeddedActions {
 
 /// Everything that the script needs; `actions` is asked only if the page is not static.
 pub(super) fn embed(scene: &Scene<'_>, view: &View, actions: impl FnOnce() -> EmbeddedActions) -> Embedded {
-    let cells = scene.grid.num_cells();
-    if cells > MOST_CELLS {
-        let note = format!("{cells} cells are too many to embed: the plots cannot be changed");
+    let (cells, maps) = (scene.grid.num_cells(), 1 + scene.memories.len());
+    if u64::from(cells) * maps as u64 > MOST_CELLS {
+        let of_memories = if maps > 1 { format!(" with {} memories", maps - 1) } else { String::new() };
+        let note = format!("{cells} cells{of_memories} are too many to embed: the plots cannot be changed");
         return Embedded { json: "null".into(), left_out: vec![note] };
     }
     let mut left_out = vec![];
-    let is_left_out = |horizon: &u64| *horizon > scene.values.last_step() as u64 && !scene.has_memory;
+    let is_left_out = |horizon: &u64| *horizon > scene.values.last_step() as u64 && maps == 1;
     if let Some(horizon) = scene.horizon.filter(is_left_out) {
         let last = scene.values.last_step();
         left_out.push(format!("values after step {last} of {horizon}"));
     }
     let actions = actions();
     left_out.extend(actions.left_out);
-    let kind = |cell| match scene.actions.kind(CellId(cell)) {
+    let kind = |(before, cell)| match scene.actions.kind(before, cell) {
         CellKind::Ordinary => 0,
         CellKind::Goal => 1,
         CellKind::Unsafe => 2,
@@ -56,7 +59,8 @@ pub(super) fn embed(scene: &Scene<'_>, view: &View, actions: impl FnOnce() -> Em
     let range = |end: fn((f64, f64)) -> f64| -> Vec<f64> {
         (0..scene.dimension()).map(|j| end(scene.range(j))).collect()
     };
-    let bytes: Vec<u8> = scene.values.all().flat_map(f32::to_le_bytes).collect();
+    let values = scene.values.all().chain(scene.memories.iter().flat_map(StepValues::all));
+    let bytes: Vec<u8> = values.flat_map(f32::to_le_bytes).collect();
     let mut value = json!({
         "names": scene.names.iter().map(|name| escape(name)).collect::<Vec<_>>(),
         "titles": (0..scene.dimension()).map(|j| escape(&scene.title(j))).collect::<Vec<_>>(),
@@ -72,7 +76,7 @@ pub(super) fn embed(scene: &Scene<'_>, view: &View, actions: impl FnOnce() -> Em
         "colours": (0..LEVELS).map(colour).collect::<Vec<_>>(),
         "firstLight": FIRST_LIGHT_LEVEL,
         "values": {"type": "f32", "data": BASE64.encode(&bytes)},
-        "kinds": packed((0..cells).map(kind)),
+        "kinds": packed(arrivals(scene).map(kind)),
         "policy": policy(scene),
         "goal": regions(scene.wanted, scene.dimension()),
         "unsafe": regions(scene.unsafe_, scene.dimension()),
@@ -86,6 +90,9 @@ pub(super) fn embed(scene: &Scene<'_>, view: &View, actions: impl FnOnce() -> Em
             "step": view.step,
         },
     });
+    if maps > 1 {
+        value["memories"] = scene.memories.len().into();
+    }
     if let (Value::Object(value), Value::Object(fields)) = (&mut value, actions.fields) {
         value.extend(fields);
     }
@@ -93,12 +100,18 @@ pub(super) fn embed(scene: &Scene<'_>, view: &View, actions: impl FnOnce() -> Em
     Embedded { json: value.to_string().replace('<', "\\u003c"), left_out }
 }
 
+/// All cells at the start, then with each memory before.
+fn arrivals(scene: &Scene<'_>) -> impl Iterator<Item = (Option<Memory>, CellId)> + use<> {
+    let cells = scene.grid.num_cells();
+    scene.before().flat_map(move |before| (0..cells).map(move |cell| (before, CellId(cell))))
+}
+
 /// The actions of every cell by the steps left.
 fn policy(scene: &Scene<'_>) -> Value {
     let mut starts = vec![0];
     let mut all = vec![];
-    for cell in (0..scene.grid.num_cells()).map(CellId) {
-        all.extend(scene.actions.entries(cell));
+    for (before, cell) in arrivals(scene) {
+        all.extend(scene.actions.entries(before, cell));
         starts.push(all.len() as u32);
     }
     json!({
@@ -123,8 +136,8 @@ pub(super) fn steering(material: &Material<'_>) -> EmbeddedActions {
 pub(super) fn inputs(material: &InputMaterial<'_>) -> EmbeddedActions {
     let scene = &material.scene;
     let mut bytes = vec![];
-    for cell in (0..scene.grid.num_cells()).map(CellId) {
-        for (_, action) in scene.actions.entries(cell) {
+    for (before, cell) in arrivals(scene) {
+        for (_, action) in scene.actions.entries(before, cell) {
             let to = scene.actions.successor(cell, action);
             bytes.extend(to.iter().flat_map(|&x| (x as f32).to_le_bytes()));
         }
@@ -151,8 +164,7 @@ fn targets(material: &Material<'_>) -> Value {
 /// The enabled actions of every cell, as ranges.
 fn ranges(material: &Material<'_>) -> Option<Value> {
     let abstraction = &material.run.abstraction;
-    let choices = abstraction.model.choices();
-    let of = |cell: u32| choices.ranges(abstraction.state_of_cell[cell as usize]);
+    let of = |cell: u32| abstraction.ranges(CellId(cell));
     let cells = 0..material.problem().grid().num_cells();
     let mut starts = vec![0];
     for cell in cells.clone() {
@@ -162,7 +174,7 @@ fn ranges(material: &Material<'_>) -> Option<Value> {
     (starts[starts.len() - 1] as usize <= MOST_RANGES).then(|| {
         json!({
             "starts": packed(starts.iter().copied()),
-            "first": packed(all().map(|range| range.first.0)),
+            "first": packed(all().map(|range| abstraction.target(range.first))),
             "length": packed(all().map(|range| range.len() as u32)),
         })
     })

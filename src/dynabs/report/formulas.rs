@@ -4,12 +4,11 @@ use super::markup::escape;
 use super::material::Material;
 use super::numbers::{short, subscripted, tuple};
 use super::scene::Scene;
-use super::sides::sides;
+use super::task::{boxes, task};
 use crate::geometry::Polytope;
 use crate::linear_algebra::ExactMatrix;
-use crate::partition::{GridAxis, Region};
+use crate::partition::GridAxis;
 use crate::system::LinearSystem;
-use crate::task::Aim;
 use imdp::numeric::to_f64;
 use num_traits::{Signed, Zero};
 
@@ -49,14 +48,7 @@ pub(super) fn model(material: &Material<'_>) -> String {
     }
     text += &partition(&material.scene);
     let steps = problem.horizon().map(|steps| steps * d as u64);
-    let (what, wanted) = match (problem.objective().aim(), steps) {
-        (Aim::Stay, Some(steps)) => (format!("stay in the safe region for {steps} steps"), "Safe region"),
-        (Aim::Stay, None) => ("stay in the safe region for ever".to_owned(), "Safe region"),
-        (_, Some(steps)) => (format!("reach the goal within {steps} steps"), "Goal"),
-        (_, None) => ("reach the goal at any time".to_owned(), "Goal"),
-    };
-    text += &format!("<p>Task: {what}, avoiding the unsafe region.</p>\n");
-    text += &boxes(wanted, &material.scene.names, problem.wanted());
+    text += &task(problem.objective(), &material.run.document.value, &material.scene, steps);
     text += &boxes("Unsafe region", &material.scene.names, problem.unsafe_regions());
     let noise = match problem.noise().samples() {
         None => "the distribution is known".to_owned(),
@@ -160,27 +152,4 @@ fn eigenvalues(values: &[(f64, f64)]) -> String {
         (re, size) => format!("{re} {} {size}i", if im < 0.0 { "−" } else { "+" }),
     });
     shown.collect::<Vec<_>>().join(", ")
-}
-
-/// A region as a list of boxes.
-pub(super) fn boxes(name: &str, names: &[String], regions: &[Region]) -> String {
-    if regions.is_empty() {
-        return format!("<p>{name}: none.</p>\n");
-    }
-    let item = |region: &Region| {
-        let side = |j: usize| {
-            let (lower, upper) = sides(region, j);
-            let x = &names[j];
-            match (lower.is_finite(), upper.is_finite()) {
-                (true, true) => Some(format!("{} ≤ {x} &lt; {}", short(lower), short(upper))),
-                (true, false) => Some(format!("{x} ≥ {}", short(lower))),
-                (false, true) => Some(format!("{x} &lt; {}", short(upper))),
-                (false, false) => None,
-            }
-        };
-        let sides: Vec<_> = (0..region.lower.len()).filter_map(side).collect();
-        format!("<li>{}</li>", if sides.is_empty() { "everything".to_owned() } else { sides.join(", ") })
-    };
-    let items: String = regions.iter().map(item).collect();
-    format!("<p>{name}:</p>\n<ul class=\"boxes\">{items}</ul>\n")
 }

@@ -6,10 +6,10 @@ use super::scene::{Scene, SceneActions, faces};
 use super::values::StepValues;
 use crate::controller::{Controller, ParameterChoice, Simulation};
 use crate::landing::LandingSolution;
-use crate::partition::{CellId, CellKind, Region};
+use crate::partition::{CellId, Region};
 use crate::problem::{InputNoise, InputProblem, Objective};
 use crate::run::InputRun;
-use crate::task::{Safety, Standing};
+use crate::task::Safety;
 use imdp::numeric::to_f64;
 use imdp::progress::Progress;
 
@@ -57,7 +57,7 @@ impl<'a> InputMaterial<'a> {
             units: states.iter().map(|state| state.unit.clone()).collect(),
             wanted: wanted(problem),
             unsafe_: problem.unsafe_regions(),
-            has_memory: problem.cell_task().memories() > 1,
+            memories: StepValues::of_lattice_memories(run, solution),
             horizon: problem.horizon(),
             group_steps: 1,
             safety: Safety::EveryStep,
@@ -129,19 +129,8 @@ struct Applying<'a> {
 }
 
 impl SceneActions for Applying<'_> {
-    fn kind(&self, cell: CellId) -> CellKind {
-        self.controller.kind(cell)
-    }
-
-    /// Those with the memory that runs begin with.
-    fn entries(&self, cell: CellId) -> Vec<(u64, u32)> {
-        let standings = self.controller.task().standings(None, cell.index());
-        let open = standings.iter().find_map(|standing| match standing {
-            Standing::Open(memory) => Some(*memory),
-            _ => None,
-        });
-        let entries = open.map_or(&[][..], |memory| self.controller.entries(memory, cell));
-        entries.iter().map(|entry| (entry.steps_left, entry.action)).collect()
+    fn controller(&self) -> &Controller {
+        self.controller
     }
 
     fn successor(&self, cell: CellId, action: u32) -> Vec<f64> {

@@ -76,7 +76,7 @@ impl<'a> Material<'a> {
             units: vec![None; n],
             wanted: problem.wanted(),
             unsafe_: problem.unsafe_regions(),
-            has_memory: false,
+            memories: StepValues::of_memories(run, answer),
             horizon: problem.horizon(),
             group_steps: problem.group_steps(),
             safety: problem.safety(),
@@ -110,12 +110,8 @@ struct Steering<'a> {
 }
 
 impl SceneActions for Steering<'_> {
-    fn kind(&self, cell: CellId) -> CellKind {
-        self.controller.kind(cell)
-    }
-
-    fn entries(&self, cell: CellId) -> Vec<(u64, u32)> {
-        self.controller.entries(0, cell).iter().map(|entry| (entry.steps_left, entry.action)).collect()
+    fn controller(&self) -> &Controller {
+        self.controller
     }
 
     fn successor(&self, _: CellId, action: u32) -> Vec<f64> {
@@ -129,7 +125,7 @@ impl SceneActions for Steering<'_> {
 
     fn enabled(&self, cell: CellId) -> usize {
         let abstraction = &self.run.abstraction;
-        abstraction.model.choices().rows(abstraction.state_of_cell[cell.index()]).count()
+        abstraction.ranges(cell).iter().map(|range| range.len()).sum()
     }
 }
 

@@ -23,6 +23,7 @@ mod scene;
 mod section;
 mod sides;
 mod tables;
+mod task;
 mod values;
 mod view;
 mod words;

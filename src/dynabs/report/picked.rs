@@ -16,15 +16,18 @@ pub(super) fn facts(
         let (lower, upper) = (short(faces[i as usize]), short(faces[i as usize + 1]));
         format!("{} ∈ [{lower}, {upper})", scene.names[j])
     });
-    let kind = scene.actions.kind(cell);
+    let kind = scene.actions.kind(None, cell);
     let enabled = match kind {
         CellKind::Ordinary => scene.actions.enabled(cell).to_string(),
         _ => "none needed".to_owned(),
     };
-    let kind = match kind {
-        CellKind::Ordinary => "ordinary",
-        CellKind::Goal => "goal",
-        CellKind::Unsafe => "unsafe",
+    let kind = match (kind, scene.memories.is_empty()) {
+        (CellKind::Ordinary, true) => "ordinary",
+        (CellKind::Ordinary, false) => "open",
+        (CellKind::Goal, true) => "goal",
+        (CellKind::Goal, false) => "done",
+        (CellKind::Unsafe, true) => "unsafe",
+        (CellKind::Unsafe, false) => "failed",
     };
     let (best, leads) = match scene.action(cell, step) {
         Some(action) => (scene.actions.words(action), tuple(&scene.actions.successor(cell, action))),

@@ -1,9 +1,9 @@
 //! What plots show of a closed loop, whatever its actions are.
 
 use super::values::StepValues;
-use crate::controller::{Tally, Trajectory};
+use crate::controller::{Controller, Tally, Trajectory};
 use crate::partition::{CellId, CellKind, Grid, GridAxis, Region};
-use crate::task::Safety;
+use crate::task::{Memory, Safety, Standing};
 use imdp::numeric::to_f64;
 
 /// The most columns of a time axis of an unbounded task.
@@ -19,8 +19,8 @@ pub(super) struct Scene<'a> {
     pub(super) units: Vec<Option<String>>,
     pub(super) wanted: &'a [Region],
     pub(super) unsafe_: &'a [Region],
-    /// Whether runs have a memory: values and actions are those that they begin with.
-    pub(super) has_memory: bool,
+    /// Values on arrival with each memory before, if runs have one; `values` are those at the start.
+    pub(super) memories: Vec<StepValues>,
     /// In grouped steps.
     pub(super) horizon: Option<u64>,
     pub(super) group_steps: usize,
@@ -47,11 +47,35 @@ pub(super) struct Scene<'a> {
 
 /// What a controller does in cells.
 pub(super) trait SceneActions {
-    /// What a cell means to the task.
-    fn kind(&self, cell: CellId) -> CellKind;
+    /// The controller.
+    fn controller(&self) -> &Controller;
 
-    /// The actions of a cell by the number of grouped steps left, ascending.
-    fn entries(&self, cell: CellId) -> Vec<(u64, u32)>;
+    /// What it means to the task to arrive in a cell, with a memory before or at the start.
+    fn kind(&self, before: Option<Memory>, cell: CellId) -> CellKind {
+        let (controller, task) = (self.controller(), self.controller().task());
+        if task.memories() <= 1 {
+            return controller.kind(cell);
+        }
+        let standings = task.standings(before, cell.index());
+        if standings.iter().all(|&standing| standing == Standing::Reached) {
+            CellKind::Goal
+        } else if standings.iter().all(|&standing| standing == Standing::Failed) {
+            CellKind::Unsafe
+        } else {
+            CellKind::Ordinary
+        }
+    }
+
+    /// The actions on arrival in a cell, with a memory before or at the start, by the number of grouped steps left, ascending.
+    fn entries(&self, before: Option<Memory>, cell: CellId) -> Vec<(u64, u32)> {
+        let standings = self.controller().task().standings(before, cell.index());
+        let open = standings.iter().find_map(|standing| match standing {
+            Standing::Open(memory) => Some(*memory),
+            Standing::Failed | Standing::Reached => None,
+        });
+        let entries = open.map_or(&[][..], |memory| self.controller().entries(memory, cell));
+        entries.iter().map(|entry| (entry.steps_left, entry.action)).collect()
+    }
 
     /// The mean of the state after an action, from the center of a cell.
     fn successor(&self, cell: CellId, action: u32) -> Vec<f64>;
@@ -106,6 +130,11 @@ impl Scene<'_> {
         (longest.unwrap_or(1).max(1) as usize).min(MOST_COLUMNS)
     }
 
+    /// What runs remember on arrival: nothing yet at the start, then each memory if there are several.
+    pub(super) fn before(&self) -> impl Iterator<Item = Option<Memory>> + use<> {
+        std::iter::once(None).chain((0..self.memories.len() as Memory).map(Some))
+    }
+
     /// What values are called.
     pub(super) fn value_name(&self) -> &'static str {
         if self.is_promised { "promised probability" } else { "value (nothing is promised)" }
@@ -121,10 +150,10 @@ impl Scene<'_> {
     /// The action of a cell after so many grouped steps; `None` if there is none.
     pub(super) fn action(&self, cell: CellId, step: usize) -> Option<u32> {
         let left = self.horizon.map_or(1, |horizon| horizon.saturating_sub(step as u64));
-        if self.actions.kind(cell) != CellKind::Ordinary || left == 0 {
+        if self.actions.kind(None, cell) != CellKind::Ordinary || left == 0 {
             return None;
         }
-        let entries = self.actions.entries(cell);
+        let entries = self.actions.entries(None, cell);
         entries.iter().rev().find(|(at_least, _)| *at_least <= left).map(|&(_, action)| action)
     }
 

@@ -1,7 +1,10 @@
 //! The value function at every step that is shown.
 
 use crate::landing::LandingSolution;
-use crate::run::Run;
+use crate::partition::CellId;
+use crate::run::{InputRun, Run};
+use crate::task::{Aim, Memory};
+use imdp::model::StateId;
 use imdp::solver::Answer;
 
 /// Lower bounds on the value of every cell, rounded down, for the first steps.
@@ -14,11 +17,36 @@ pub(super) struct StepValues {
 impl StepValues {
     /// The values of an answer and of the earlier steps that came with it.
     pub(super) fn of_answer(run: &Run, answer: &Answer) -> Self {
-        let mut by_step = vec![of_cells(run, &answer.values.lower)];
-        if !answer.query.complement {
-            by_step.extend(answer.solution.history.iter().map(|values| of_cells(run, values)));
+        let states = &run.abstraction.state_of_cell;
+        let all = std::iter::once(&answer.values.lower).chain(earlier(answer));
+        Self { by_step: all.map(|values| of_states(states, values)).collect() }
+    }
+
+    /// The same on arrival with each memory before, if there are several.
+    pub(super) fn of_memories(run: &Run, answer: &Answer) -> Vec<Self> {
+        let (problem, abstraction) = (&run.problem, &run.abstraction);
+        let (memories, cells) = (problem.cell_task().memories(), problem.grid().num_cells());
+        if memories <= 1 {
+            return vec![];
         }
-        Self { by_step }
+        let arrivals = |before| -> Vec<StateId> {
+            (0..cells).map(|cell| abstraction.arrival(problem, Some(before), CellId(cell))).collect()
+        };
+        let of_memory = |memory: Memory| match (problem.cell_task().aim(), problem.horizon()) {
+            (Aim::End, Some(horizon)) => {
+                // Memories of the model count the steps, so the values after a step are those of later states.
+                let kept = earlier(answer).count() as u64;
+                let after = |step: u64| arrivals(step.max(1) as Memory * memories - memories + memory);
+                let steps = 0..=kept.min(horizon);
+                Self { by_step: steps.map(|step| of_states(&after(step), &answer.values.lower)).collect() }
+            }
+            _ => {
+                let (states, all) =
+                    (arrivals(memory), std::iter::once(&answer.values.lower).chain(earlier(answer)));
+                Self { by_step: all.map(|values| of_states(&states, values)).collect() }
+            }
+        };
+        (0..memories).map(of_memory).collect()
     }
 
     /// The values on a lattice, and of the earlier steps that came with them.
@@ -26,6 +54,16 @@ impl StepValues {
         let rounded = |values: &Vec<f64>| values.iter().map(|&value| rounded_down(value)).collect();
         let fewer = solution.history.iter().rev().skip(1);
         Self { by_step: std::iter::once(&solution.values.lower).chain(fewer).map(rounded).collect() }
+    }
+
+    /// The values on a lattice on arrival with each memory before, if there are several.
+    pub(super) fn of_lattice_memories(run: &InputRun, solution: &LandingSolution) -> Vec<Self> {
+        let (question, memories) = (run.abstraction.question(), run.problem.cell_task().memories());
+        let of_memory = |memory| {
+            let values = question.lower_on_arrival(memory, solution);
+            Self { by_step: vec![values.into_iter().map(rounded_down).collect()] }
+        };
+        if memories <= 1 { vec![] } else { (0..memories).map(of_memory).collect() }
     }
 
     /// The last step that is kept.
@@ -44,8 +82,14 @@ impl StepValues {
     }
 }
 
-fn of_cells(run: &Run, values: &[f64]) -> Vec<f32> {
-    run.abstraction.state_of_cell.iter().map(|&state| rounded_down(values[state.index()])).collect()
+/// The values of the states of cells.
+fn of_states(states: &[StateId], values: &[f64]) -> Vec<f32> {
+    states.iter().map(|&state| rounded_down(values[state.index()])).collect()
+}
+
+/// The values with fewer steps left that came with an answer.
+fn earlier(answer: &Answer) -> impl Iterator<Item = &Vec<f64>> {
+    answer.solution.history.iter().filter(|_| !answer.query.complement)
 }
 
 /// The greatest single that is at most `x`.

@@ -105,9 +105,11 @@ pub(super) fn about_runs(scene: &Scene<'_>) -> String {
         1 => String::new(),
         d => format!(" They join the grouped instants, every {d} steps."),
     };
-    let memory = match scene.has_memory {
-        true => " Values and arrows are those with the memory that runs begin with.",
-        false => "",
+    let memory = match scene.memories.is_empty() {
+        true => "",
+        false => {
+            " Values and arrows are those at the start; above the map others can be chosen, by what a run remembers when it comes to a cell."
+        }
     };
     format!(
         "Lines are the first {} simulated runs from x = {} ({chosen}), seed {}; those that failed are dashed.{between}{memory}",

@@ -7,17 +7,18 @@ use super::manifest::{Coordinates, GroupedHorizon, InputFile, Manifest};
 use super::open::problem_document;
 use super::solution::{ON_LATTICE, input_solution_options, stored};
 use super::staging::{RunDirectoryError, Staging};
-use super::write::{WriteOptions, begin_with_model, self_contained, write_samples, write_solution};
+use super::write::{
+    WriteOptions, begin_with_model, self_contained, with_automaton, write_samples, write_solution,
+};
 use crate::abstraction::inputs::{InputAbstraction, InputEncoding, InputModel};
 use crate::guarantee::{Event, Guarantee};
 use crate::landing::LandingSolution;
 use crate::model_file::{Document, StatedProblem};
-use crate::problem::{InputProblem, Objective, SampledNoise};
+use crate::problem::{InputProblem, SampledNoise};
 use imdp::formats::{native, sha256_hex};
 use imdp::progress::Progress;
 use imdp::property::{Probability, Resolution};
 use imdp::solver::SolverOptions;
-use serde_json::Value;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -224,14 +225,4 @@ pub fn write_input_run(
     manifest.outputs = staging.files().to_vec();
     staging.commit(&manifest)?;
     Ok(manifest)
-}
-
-/// A model file that has the text of its automaton in itself.
-pub(super) fn with_automaton(mut value: Value, objective: &Objective) -> Value {
-    if let Objective::Automaton(task) = objective
-        && let (Some(text), Some(field)) = (task.source(), value.pointer_mut("/task/automaton"))
-    {
-        *field = serde_json::json!({"hoa": text});
-    }
-    value
 }

@@ -16,20 +16,23 @@ const MOST_VALUES: u64 = 600_000;
 
 /// What controllers and reports need of a solution: the policy, and values with fewer steps left where they are few.
 pub fn solution_options<'a>(problem: &Problem, options: &SolverOptions<'a>) -> SolverOptions<'a> {
-    let history = kept_steps(problem.grid().num_cells(), problem.horizon());
+    let memories = u64::from(problem.cell_task().memories());
+    let maps = if memories > 1 { 1 + memories } else { 1 };
+    let values = u64::from(problem.grid().num_cells()).saturating_mul(maps);
+    let history = kept_steps(values, problem.horizon());
     SolverOptions { policy: true, history, ..*options }
 }
 
 /// What reports need of the solution of a problem whose actions are inputs; a task with a memory is another one later.
 pub fn input_solution_options<'a>(problem: &InputProblem, options: &SolverOptions<'a>) -> SolverOptions<'a> {
     let has_memory = problem.cell_task().memories() > 1;
-    let history = kept_steps(problem.grid().num_cells(), problem.horizon().filter(|_| !has_memory));
+    let history = kept_steps(problem.grid().num_cells().into(), problem.horizon().filter(|_| !has_memory));
     SolverOptions { policy: true, history, ..*options }
 }
 
-/// For how many grouped steps values are kept.
-fn kept_steps(cells: u32, horizon: Option<u64>) -> usize {
-    horizon.unwrap_or(0).min(MOST_STEPS).min((MOST_VALUES / u64::from(cells)).saturating_sub(1)) as usize
+/// For how many grouped steps so many values are kept.
+fn kept_steps(values: u64, horizon: Option<u64>) -> usize {
+    horizon.unwrap_or(0).min(MOST_STEPS).min((MOST_VALUES / values.max(1)).saturating_sub(1)) as usize
 }
 
 /// What a solution on the lattice is of; the problem says the rest.

@@ -7,7 +7,7 @@ use super::solution::is_final;
 use super::staging::{RunDirectoryError, Staging};
 use crate::abstraction::Abstraction;
 use crate::model_file::Document;
-use crate::problem::{Problem, SampledNoise};
+use crate::problem::{Objective, Problem, SampledNoise};
 use imdp::formats::row_states::RowStates;
 use imdp::formats::umb::Compression;
 use imdp::formats::{Encoding, Format, ModelWriter, native};
@@ -58,8 +58,8 @@ pub fn write_run(
     staging.write("model.props", |out| writeln!(out, "{}", abstraction.property))?;
     let samples = problem.noise().samples();
     let is_file = samples.and_then(SampledNoise::file).is_some();
-    staging
-        .write(PROBLEM, |out| out.write_all(self_contained(document.value.clone(), is_file).as_bytes()))?;
+    let value = self_contained(with_automaton(document.value.clone(), problem.objective()), is_file);
+    staging.write(PROBLEM, |out| out.write_all(value.as_bytes()))?;
     if let Some(samples) = samples {
         staging.write(NOISE, |out| write_samples(samples, out))?;
     }
@@ -121,6 +121,16 @@ pub(super) fn write_solution(
     let of = staging.files().iter().find(|written| written.name == file);
     let sha256 = of.map_or_else(String::new, |written| written.sha256.clone());
     staging.write(SOLUTION, |out| solution_file::write(property, &sha256, solution, out))
+}
+
+/// A model file that has the text of its automaton in itself.
+pub(super) fn with_automaton(mut value: Value, objective: &Objective) -> Value {
+    if let Objective::Automaton(task) = objective
+        && let (Some(text), Some(field)) = (task.source(), value.pointer_mut("/task/automaton"))
+    {
+        *field = serde_json::json!({"hoa": text});
+    }
+    value
 }
 
 /// The samples as they were read, or drawn.

@@ -1,9 +1,12 @@
 //! What the memory of a task becomes in each cell.
 
+mod worst;
+
 use super::labels::{Label, labels};
 use super::{Aim, AutomatonTask, Memory, Standing};
 use crate::partition::{CellId, CellKind, Grid};
 use std::collections::HashMap;
+pub use worst::Straddling;
 
 /// A task on the cells of a partition.
 ///
@@ -293,7 +296,7 @@ mod tests {
     }
 
     /// `a` in cells 0 and perhaps 1, `b` in cell 3, on five cells.
-    fn task(formula: &str) -> (AutomatonTask, CellTask) {
+    pub(super) fn task(formula: &str) -> (AutomatonTask, CellTask) {
         let grid = Grid::new(&exact(&[0.0]), &exact(&[5.0]), &[5]).unwrap();
         let regions = vec![interval("a", 0.0, 1.5), interval("b", 3.0, 4.0)];
         let formula =

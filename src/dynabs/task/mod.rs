@@ -13,7 +13,7 @@ mod safety;
 mod standing;
 
 pub use automaton::AutomatonTask;
-pub use cells::{CellTask, Letters};
+pub use cells::{CellTask, Letters, Straddling};
 pub use imdp::automaton::Aim;
 pub use labels::Label;
 pub use region::{HalfSpace, Letter, LetterLookup, NamedRegion, Shape};

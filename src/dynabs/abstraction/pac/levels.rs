@@ -106,7 +106,8 @@ impl LowerBounds {
 
 impl Levels {
     /// Spends the budget on the offsets in a box, given per dimension, from any of `origins` targets, on an
-    /// event per action whose target is so far from the goal, and on rooms with so many `sides`.
+    /// event for every action whose target is so far from the goal and so many about what is `lost`, and on rooms with so many
+    /// `sides`.
     pub(super) fn new(
         budget: &mut ConfidenceBudget,
         lower: LowerBounds,
@@ -114,18 +115,19 @@ impl Levels {
         offsets: &[(i64, i64)],
         origins: usize,
         goal_distances: &[u32],
+        lost: usize,
     ) -> Result<Self, BudgetError> {
         let mut grants = Vec::with_capacity(6);
         let one = |weight: u64| BigInt::from(weight);
         let number: BigInt = offsets.iter().map(|(low, high)| BigInt::from(high - low + 1)).product();
         let goal: BigInt = goal_distances.iter().map(|&distance| BigInt::from(goal_weight(distance))).sum();
-        let actions = BigInt::from(goal_distances.len());
+        let (actions, lost) = (BigInt::from(goal_distances.len()), BigInt::from(lost));
         let offset_weight = total_offset_weight(offsets) * origins;
         let rooms = BigInt::from(RUNGS.len() + 1).pow(sides as u32);
         let families = [
             (&number * origins * lower.events(), &offset_weight * 2 * lower.whole()),
-            (&actions * lower.events(), goal * 100 * lower.whole()),
-            (actions.clone(), actions),
+            (actions * lower.events(), goal * 100 * lower.whole()),
+            (lost.clone(), lost),
             (one(WINDOW_WEIGHTS.len() as u64), one(WINDOW_WEIGHTS.iter().sum())),
             (number * origins * &rooms, offset_weight),
             (rooms, one(1)),
@@ -268,7 +270,8 @@ mod tests {
     #[test]
     fn all_rooms_together_cost_what_was_given() {
         let mut budget = ConfidenceBudget::new(Rational::new(1.into(), 100.into()));
-        let levels = Levels::new(&mut budget, LowerBounds::InsideWindows, 4, &[(-1, 1); 2], 1, &[0]).unwrap();
+        let levels =
+            Levels::new(&mut budget, LowerBounds::InsideWindows, 4, &[(-1, 1); 2], 1, &[0], 1).unwrap();
         let number = RUNGS.len() + 1;
         let (mut cells, mut leaving) = (0.0, 0.0);
         for code in 0..number.pow(4) {
@@ -302,7 +305,7 @@ mod tests {
             let offsets = [(-3, 4), (-2, 2)];
             let distances = [0, 0, 1, 5];
             let mut budget = ConfidenceBudget::new(Rational::new(1.into(), 100.into()));
-            let levels = Levels::new(&mut budget, lower, 4, &offsets, 1, &distances).unwrap();
+            let levels = Levels::new(&mut budget, lower, 4, &offsets, 1, &distances, 6).unwrap();
             let events = lower.events() as usize;
             let cost = |event: EventLevels| event.upper + event.lower[..events].iter().sum::<f64>();
             let mut cells = 0.0;
@@ -313,7 +316,7 @@ mod tests {
             }
             let goal: f64 = distances.iter().map(|&distance| cost(levels.goal(distance))).sum();
             let windows: f64 = levels.windows.iter().sum();
-            let sums = [cells, goal, levels.lost * 4.0, windows];
+            let sums = [cells, goal, levels.lost * 6.0, windows];
             let shares = if lower == LowerBounds::OfNoise { &SHARES[..] } else { &SHARES_OF_STEPS };
             for ((sum, allocation), &(_, share)) in sums.iter().zip(budget.allocations()).zip(shares) {
                 assert!((sum - allocation.beta).abs() < 1e-15, "{allocation:?}: {sum}");

@@ -75,6 +75,7 @@
 //! in floating point count for the upper bounds of every cell they may be in, for the lower bounds of none.
 
 mod bounds;
+mod ends;
 mod events;
 mod levels;
 mod preference;
@@ -87,15 +88,16 @@ use super::cell_box::CellBox;
 use super::cell_counts::{CellCounts, RegionCounts};
 use super::enabling::Enabling;
 use super::footprint::need_of_rows;
-use super::outcomes::{Outcome, Outcomes};
 use super::rooms::Rooms;
-use super::states::{FAILED, REACHED, StateSpace};
-use super::stencil::{BoxCount, Ground, Hits, Special, Stencil, StencilRows};
+use super::states::{REACHED, StateSpace};
+use super::stencil::{Ground, Hits, Special, Stencil, StencilRows};
 use super::targets::Targets;
 use super::windows::WINDOWS;
 use crate::guarantee::SampleEvidence;
 use crate::problem::{Problem, SampledNoise};
 use bounds::{BoundTable, DIGITS, Interval};
+pub(super) use ends::TaskEnds;
+use ends::{EndCells, MemoryGrounds};
 use events::{cell_events, intervals};
 use imdp::model::RowSet;
 use imdp::numeric::{round_decimal_down, round_decimal_up};
@@ -109,17 +111,15 @@ use rayon::prelude::*;
 use roomy::RoomBounds;
 use std::sync::Arc;
 
-/// The rows of all actions, with any of their windows.
+/// The rows of all actions, with any of their windows, with every memory of the task.
 pub(super) struct PacRows<'a> {
     problem: &'a Problem,
     /// The number of samples.
     number: u64,
     targets: &'a Targets,
     landings: ActionCounts<'a>,
-    ground: Arc<Ground>,
-    lost_cells: BoxCount,
-    goal_cells: BoxCount,
-    /// Per action; nothing is counted where no window meets anything but open cells.
+    grounds: MemoryGrounds,
+    /// Per way of ending and action; nothing is counted where no window meets anything but open cells.
     regions: Vec<RegionCounts>,
     /// By squared distance from the target.
     cells: BoundTable<u64>,
@@ -135,6 +135,16 @@ pub(super) struct PacRows<'a> {
     prepared: Prepared,
 }
 
+/// An action with a memory of the task before it.
+#[derive(Clone, Copy)]
+struct Action<'p> {
+    ground: &'p Ground,
+    ends: &'p EndCells,
+    /// The number of the way of ending.
+    way: usize,
+    target: usize,
+}
+
 impl<'a> PacRows<'a> {
     /// Counts.
     pub(super) fn new(
@@ -143,7 +153,6 @@ impl<'a> PacRows<'a> {
         enabling: &'a Enabling,
         placements: TargetPlacements<'a>,
         states: &StateSpace,
-        outcomes: &Outcomes,
     ) -> Result<Self, AbstractionError> {
         let (grid, samples) = (problem.grid(), &noise.samples);
         let Enabling { targets, rooms, .. } = enabling;
@@ -151,23 +160,16 @@ impl<'a> PacRows<'a> {
         let inside_only = levels.lower_bounds() == LowerBounds::InsideWindows;
         let landings = ActionCounts::in_windows(samples, placements, prepared.windows.clone(), inside_only);
         if landings.shared().is_none() {
-            let entries = targets.len() as u64 * u64::from(grid.num_cells());
-            need_of_rows(problem, entries).check()?;
+            let rows = states.memories().len() as u64 * targets.len() as u64;
+            need_of_rows(problem, rows * u64::from(grid.num_cells())).check()?;
         }
-        let ground = Ground::new(grid, landings.shared().map(|_| targets), states.heads(), |cell| {
-            match outcomes.of(cell) {
-                Outcome::Lost => FAILED,
-                Outcome::Reached => REACHED,
-                Outcome::Open => states.of_cell(cell),
-            }
-        });
-        let lost_cells = BoxCount::new(&ground, |state| state == FAILED);
-        let goal_cells = BoxCount::new(&ground, |state| state != FAILED && !ground.lists(state));
-        let regions = regions(&landings, targets, problem, &ground, [&lost_cells, &goal_cells]);
+        let shared_targets = landings.shared().map(|_| targets);
+        let grounds = MemoryGrounds::new(problem, &prepared.ends, enabling, states, shared_targets);
+        let regions = regions(&landings, targets, problem, &grounds);
         let size = prepared.sample_size(samples.len() as u64);
         let cell_events = cell_events(&landings, targets, problem);
         let cells = BoundTable::new(cell_events, &size, |square| levels.cell(square));
-        let goal_events = regions.iter().map(|r| r.goal).zip(prepared.goal_distances.iter().copied());
+        let goal_events = regions.iter().map(|r| r.goal).zip(prepared.ends.goal_distances.iter().copied());
         let goal = BoundTable::new(goal_events, &size, |distance| levels.goal(distance));
         let lost_events = regions.iter().map(|r| (r.lost, ()));
         // Only the upper bound is claimed and paid for: at level 0 the lower one is 0.
@@ -179,11 +181,12 @@ impl<'a> PacRows<'a> {
             RoomBounds::new(room, &prepared, &landings, between, shared.as_deref().unwrap_or_default())
         };
         let in_rooms: Vec<RoomBounds> = rooms.distinct.par_iter().filter_map(in_room).collect();
+        let ground = grounds.any();
         let stencils = landings.shared().zip(shared.as_deref()).map(|(landing, shared)| {
             let of_rooms = in_rooms.iter().map(|room| (&room.intervals[..], room.leaving));
             let all = std::iter::once((shared, 0.0)).chain(of_rooms);
             let windows = landings.shared_windows();
-            all.flat_map(|bounds| stencils(landing, windows, &ground, bounds, &prepared.unseen)).collect()
+            all.flat_map(|bounds| stencils(landing, windows, ground, bounds, &prepared.unseen)).collect()
         });
         Ok(Self {
             in_rooms,
@@ -192,9 +195,7 @@ impl<'a> PacRows<'a> {
             number: samples.len() as u64,
             targets,
             landings,
-            ground: Arc::new(ground),
-            lost_cells,
-            goal_cells,
+            grounds,
             regions,
             cells,
             goal,
@@ -204,7 +205,7 @@ impl<'a> PacRows<'a> {
         })
     }
 
-    /// One row per target, each with the window that is preferred.
+    /// One row per memory and target, each with the window that is preferred.
     ///
     /// Whatever is chosen, the bounds hold.
     pub(super) fn rows(
@@ -213,23 +214,25 @@ impl<'a> PacRows<'a> {
         phase: &'static str,
         progress: &dyn Progress,
     ) -> RowSet {
-        progress.start(phase, self.targets.len() as u64);
+        let count = self.grounds.memories() * self.targets.len();
+        progress.start(phase, count as u64);
         let rows = match &self.stencils {
-            None => super::row_tasks::build_rows(self.targets.len(), progress, |target, rows| {
-                let stencils = self.stencils_of(target);
+            None => super::row_tasks::build_rows(count, progress, |row, rows| {
+                let action = self.action(row);
+                let stencils = self.stencils_of(action.target);
                 let mut chooser = Chooser::new(self, preference);
-                let chosen = chooser.choose(&stencils, target);
-                rows.push_row(chooser.row(&stencils, &chosen));
+                let chosen = chooser.choose(&stencils, action);
+                rows.push_row(chooser.row(&stencils, &chosen, action));
             })
             .into(),
             Some(stencils) => StencilRows::new(
-                self.ground.clone(),
+                self.grounds.all(),
                 stencils.clone(),
                 self.targets.len(),
                 || Chooser::new(self, preference),
-                |chooser, target| {
+                |chooser, row| {
                     progress.advance(1);
-                    chooser.choose(stencils, target)
+                    chooser.choose(stencils, self.action(row))
                 },
             )
             .into(),
@@ -249,6 +252,18 @@ impl<'a> PacRows<'a> {
             unseen_mass: prepared.unseen.first().copied().unwrap_or(1.0),
             components: None,
         }
+    }
+
+    /// The action of a row.
+    fn action(&self, row: usize) -> Action<'_> {
+        let (memory, target) = (row / self.targets.len(), row % self.targets.len());
+        let (ground, way, ends) = self.grounds.of(memory);
+        Action { ground, ends, way, target }
+    }
+
+    /// Where what is known of an action and its way of ending is.
+    fn place(&self, action: Action<'_>) -> usize {
+        action.way * self.targets.num_originals() + self.targets.original(action.target)
     }
 
     /// The bounds of the room that an action needs, if it needs one.
@@ -278,51 +293,52 @@ impl<'a> PacRows<'a> {
         let (landing, windows) = self.landings.of(self.targets, target, grid, &mut vec![0; grid.dimension()]);
         let from = self.landings.target_cell(self.targets, target);
         let intervals = intervals(&landing, &from, &self.cells);
-        stencils(&landing, &windows, &self.ground, (&intervals, 0.0), &self.prepared.unseen)
+        stencils(&landing, &windows, self.grounds.any(), (&intervals, 0.0), &self.prepared.unseen)
     }
 
     /// How much may fail if the row at `origin` is made with a window.
-    fn failed(&self, stencil: &Stencil, target: usize, origin: &[i32], window: usize) -> f64 {
+    fn failed(&self, stencil: &Stencil, action: Action<'_>, origin: &[i32], window: usize) -> f64 {
         let unseen = self.prepared.unseen[window];
         let hull = stencil.runs().hull();
-        let is_clean = self.ground.contains(hull, origin) && self.lost_cells.of(hull, origin) == 0;
+        let is_clean = action.ground.contains(hull, origin) && action.ends.lost.of(hull, origin) == 0;
         let most = if is_clean {
             unseen
         } else {
-            let original = self.targets.original(target);
-            (unseen + self.lost.get(self.regions[original].lost, ()).upper).next_up()
+            (unseen + self.lost.get(self.regions[self.place(action)].lost, ()).upper).next_up()
         };
-        let most = self.room(target).map_or(most, |room| (most + room.leaving).next_up());
+        let most = self.room(action.target).map_or(most, |room| (most + room.leaving).next_up());
         round_decimal_up(most, DIGITS).min(1.0)
     }
 
     /// The intervals of the special states of the row at `origin`.
-    fn special(&self, stencil: &Stencil, target: usize, origin: &[i32], window: usize) -> Special {
-        let meets_goal = self.goal_cells.of(stencil.runs().hull(), origin) > 0;
+    fn special(&self, stencil: &Stencil, action: Action<'_>, origin: &[i32], window: usize) -> Special {
+        let Action { ground, ends, target, .. } = action;
+        let meets_goal = ends.goal.of(stencil.runs().hull(), origin) > 0;
         let reached = meets_goal.then(|| {
             let mut of_cells = 0.0;
-            stencil.runs().for_each(&self.ground, origin, |first, position, length| {
-                for (i, &state) in self.ground.states[first..first + length].iter().enumerate() {
+            stencil.runs().for_each(ground, origin, |first, position, length| {
+                for (i, &state) in ground.states[first..first + length].iter().enumerate() {
                     if state == REACHED {
                         of_cells = f64::next_down(of_cells + stencil.lower(position + i)).max(0.0);
                     }
                 }
             });
-            let original = self.targets.original(target);
-            let event = self.goal.get(self.regions[original].goal, self.prepared.goal_distances[original]);
+            let place = self.place(action);
+            let event = self.goal.get(self.regions[place].goal, self.prepared.ends.goal_distances[place]);
             let of_cells = round_decimal_down(of_cells, DIGITS);
             // The goal's own event is about noise with or without room.
-            let lower = if original == target { event.lower[window].max(of_cells) } else { of_cells };
+            let is_original = self.targets.original(target) == target;
+            let lower = if is_original { event.lower[window].max(of_cells) } else { of_cells };
             (lower, event.upper)
         });
-        Special { first: (0.0, self.failed(stencil, target, origin, window)), reached }
+        Special { first: (0.0, self.failed(stencil, action, origin, window)), reached }
     }
 
     /// How many entries the row at `origin` has.
-    fn length(&self, stencil: &Stencil, origin: &[i32], special: Special) -> u32 {
+    fn length(&self, stencil: &Stencil, action: Action<'_>, origin: &[i32], special: Special) -> u32 {
         let hull = stencil.runs().hull();
-        let merged = self.lost_cells.of(hull, origin) + self.goal_cells.of(hull, origin);
-        1 + u32::from(special.reached.is_some()) + self.ground.volume(hull, origin) - merged
+        let merged = action.ends.lost.of(hull, origin) + action.ends.goal.of(hull, origin);
+        1 + u32::from(special.reached.is_some()) + action.ground.volume(hull, origin) - merged
     }
 }
 
@@ -347,32 +363,34 @@ fn stencils(
     windows.iter().enumerate().map(stencil).collect()
 }
 
-/// How many samples land in the regions of the task, per action.
+/// How many samples land in the regions of the task, per way of ending and action.
 fn regions(
     landings: &ActionCounts<'_>,
     targets: &Targets,
     problem: &Problem,
-    ground: &Ground,
-    merged: [&BoxCount; 2],
+    grounds: &MemoryGrounds,
 ) -> Vec<RegionCounts> {
     let grid = problem.grid();
     let shared = landings.shared().zip(landings.shared_windows().first());
-    let shared = shared.map(|(landing, window)| (Hits::new(landing, ground), window));
-    let counts = |origin: &mut Vec<i32>, target| {
-        ground.origin(target, origin);
-        match &shared {
-            Some((_, window))
-                if ground.contains(window, origin)
-                    && merged.iter().all(|cells| cells.of(window, origin) == 0) =>
-            {
-                RegionCounts::default()
+    let shared = shared.map(|(landing, window)| (Hits::new(landing, grounds.any()), window));
+    let of_way = |(ground, ends): (&Ground, &EndCells)| -> Vec<RegionCounts> {
+        let counts = |origin: &mut Vec<i32>, target| {
+            ground.origin(target, origin);
+            match &shared {
+                Some((_, window))
+                    if ground.contains(window, origin)
+                        && [&ends.lost, &ends.goal].iter().all(|cells| cells.of(window, origin) == 0) =>
+                {
+                    RegionCounts::default()
+                }
+                Some((hits, _)) => hits.in_regions(ground, origin),
+                None => {
+                    let (landing, _) = landings.of(targets, target, grid, &mut vec![0; grid.dimension()]);
+                    Hits::new(&landing, ground).in_regions(ground, origin)
+                }
             }
-            Some((hits, _)) => hits.in_regions(ground, origin),
-            None => {
-                let (landing, _) = landings.of(targets, target, grid, &mut vec![0; grid.dimension()]);
-                Hits::new(&landing, ground).in_regions(ground, origin)
-            }
-        }
+        };
+        (0..targets.num_originals()).into_par_iter().map_init(Vec::new, counts).collect()
     };
-    (0..targets.num_originals()).into_par_iter().map_init(Vec::new, counts).collect()
+    grounds.ways().flat_map(of_way).collect()
 }

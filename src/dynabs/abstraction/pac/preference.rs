@@ -1,7 +1,7 @@
 //! Which window a row is made with.
 
 use super::super::stencil::{Chosen, Stencil};
-use super::PacRows;
+use super::{Action, PacRows};
 use imdp::model::{Row, RowBuffer};
 use imdp::solver::WorstExpectation;
 
@@ -31,31 +31,37 @@ impl<'a> Chooser<'a> {
     }
 
     /// The window of an action's row, and what follows from it.
-    pub(super) fn choose(&mut self, stencils: &[Stencil], target: usize) -> Chosen {
+    pub(super) fn choose(&mut self, stencils: &[Stencil], action: Action<'_>) -> Chosen {
         let Self { rows, preference, buffer: RowBuffer { entries, coordinates }, expectation } = self;
-        rows.ground.origin(target, coordinates);
-        let (first, windows) = (rows.first_stencil(target), 0..rows.windows());
+        action.ground.origin(action.target, coordinates);
+        let (first, windows) = (rows.first_stencil(action.target), 0..rows.windows());
         let stencils = &stencils[first..first + windows.len()];
         let best = match preference {
             Preference::LeastFailing => {
-                first_best(windows, |window| -rows.failed(&stencils[window], target, coordinates, window))
+                first_best(windows, |window| -rows.failed(&stencils[window], action, coordinates, window))
             }
             Preference::Worth(values) => first_best(windows, |window| {
                 let stencil = &stencils[window];
-                let special = rows.special(stencil, target, coordinates, window);
-                let row = stencil.row(&rows.ground, coordinates, special, entries);
+                let special = rows.special(stencil, action, coordinates, window);
+                let row = stencil.row(action.ground, coordinates, special, entries);
                 expectation.of(row, values)
             }),
         };
         let stencil = &stencils[best];
-        let special = rows.special(stencil, target, coordinates, best);
-        Chosen { stencil: (first + best) as u32, special, length: rows.length(stencil, coordinates, special) }
+        let special = rows.special(stencil, action, coordinates, best);
+        let length = rows.length(stencil, action, coordinates, special);
+        Chosen { stencil: (first + best) as u32, special, length }
     }
 
     /// The row chosen last.
-    pub(super) fn row<'b>(&'b mut self, stencils: &'b [Stencil], chosen: &Chosen) -> Row<'b> {
+    pub(super) fn row<'b>(
+        &'b mut self,
+        stencils: &'b [Stencil],
+        chosen: &Chosen,
+        action: Action<'_>,
+    ) -> Row<'b> {
         let RowBuffer { entries, coordinates } = &mut self.buffer;
-        stencils[chosen.stencil as usize].row(&self.rows.ground, coordinates, chosen.special, entries)
+        stencils[chosen.stencil as usize].row(action.ground, coordinates, chosen.special, entries)
     }
 }
 

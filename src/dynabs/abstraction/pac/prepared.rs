@@ -6,7 +6,8 @@ use super::super::hazards::Hazards;
 use super::super::targets::Targets;
 use super::super::windows::{Stack, Windows, shape_samples};
 use super::bounds::{DIGITS, SampleSize};
-use super::levels::{Levels, LowerBounds, distances_in_cells};
+use super::ends::TaskEnds;
+use super::levels::{Levels, LowerBounds};
 use crate::problem::{Problem, SampledNoise};
 use crate::statistics::{ConfidenceBudget, upper_bound};
 use imdp::numeric::{Rational, one_minus_down, round_decimal_up, to_f64};
@@ -21,8 +22,7 @@ pub(in super::super) struct Prepared {
     pub(super) sweep: u64,
     pub(super) budget: ConfidenceBudget,
     pub(super) levels: Levels,
-    /// Per action, in cells.
-    pub(super) goal_distances: Vec<u32>,
+    pub(super) ends: TaskEnds,
     pub(super) windows: Windows,
     /// Per window, a bound on the mass outside.
     pub(super) unseen: Vec<f64>,
@@ -36,7 +36,7 @@ impl Prepared {
     pub(in super::super) fn new(
         (problem, noise): (&Problem, &SampledNoise),
         (beta, sweep, discard): (&Rational, u64, usize),
-        targets: &Targets,
+        (targets, ends): (&Targets, TaskEnds),
         placements: &TargetPlacements<'_>,
         hazards: Option<&Hazards>,
     ) -> Result<Self, AbstractionError> {
@@ -45,12 +45,12 @@ impl Prepared {
             None => (LowerBounds::OfNoise, &[], &[]),
             Some(hazards) => (LowerBounds::InsideWindows, &noise.between, hazards.watched()),
         };
-        let goal_distances = distances_in_cells(targets, problem.goal(), grid);
         let origins = if placements.shared().is_some() { 1 } else { targets.len() };
         let mut budget = ConfidenceBudget::new(beta / Rational::from_integer(sweep.into()));
         let offsets = placements.offset_ranges(grid);
         let sides = 2 * watched.iter().filter(|&&watched| watched).count();
-        let levels = Levels::new(&mut budget, lower, sides, &offsets, origins, &goal_distances)?;
+        let (goal, lost) = (ends.goal_events(), ends.lost_events());
+        let levels = Levels::new(&mut budget, lower, sides, &offsets, origins, &goal, lost)?;
 
         let stack = Stack { last: &noise.samples, between, watched };
         let windows = Windows::new(stack, grid, placements.shared(), discard, &levels.windows);
@@ -62,7 +62,7 @@ impl Prepared {
             let needed = enough_samples(discard, levels.windows[0]);
             return Err(AbstractionError::TooFewSamples { samples, needed, unseen: of_largest });
         }
-        Ok(Self { beta: to_f64(beta), sweep, budget, levels, goal_distances, windows, unseen })
+        Ok(Self { beta: to_f64(beta), sweep, budget, levels, ends, windows, unseen })
     }
 
     /// The windows.

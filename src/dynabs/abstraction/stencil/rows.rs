@@ -13,10 +13,12 @@ const ROWS_PER_TASK: usize = 512;
 /// Tasks whose results are put together at once.
 const TASKS: usize = 128;
 
-/// One row per target.
+/// One row per target on each of some grounds that differ in states only, ground after ground.
 #[derive(Debug)]
 pub(in super::super) struct StencilRows {
-    ground: Arc<Ground>,
+    grounds: Arc<[Ground]>,
+    /// How many rows there are on each.
+    targets: usize,
     stencils: Arc<[Stencil]>,
     /// Per row, its stencil.
     shapes: Vec<u32>,
@@ -39,17 +41,19 @@ pub(in super::super) struct Chosen {
 }
 
 impl StencilRows {
-    /// So many rows, chosen in parallel with what `start` gives each task.
+    /// Rows for so many targets, chosen in parallel with what `start` gives each task.
     pub(in super::super) fn new<T>(
-        ground: Arc<Ground>,
+        grounds: Arc<[Ground]>,
         stencils: Arc<[Stencil]>,
-        count: usize,
+        targets: usize,
         start: impl Fn() -> T + Sync,
         choose: impl Fn(&mut T, usize) -> Chosen + Sync,
     ) -> Self {
+        let count = grounds.len() * targets;
         let mut rows = Self {
-            reach: Reach::new(&ground, &stencils),
-            ground,
+            reach: Reach::new(&grounds[0], &stencils),
+            grounds,
+            targets,
             stencils,
             shapes: Vec::with_capacity(count),
             special: Vec::with_capacity(count),
@@ -110,15 +114,16 @@ impl ComputedRows for StencilRows {
         let stencil = &self.stencils[self.shapes[id.index()] as usize];
         let special = self.specials[self.special[id.index()] as usize];
         let RowBuffer { entries, coordinates } = buffer;
-        self.ground.origin(id.index(), coordinates);
+        let ground = &self.grounds[id.index() / self.targets];
+        ground.origin(id.index() % self.targets, coordinates);
         if stencil.is_whole(self.row_len(id), special) {
-            stencil.whole_row(&self.ground, coordinates, entries)
+            stencil.whole_row(ground, coordinates, entries)
         } else {
-            stencil.row(&self.ground, coordinates, special, entries)
+            stencil.row(ground, coordinates, special, entries)
         }
     }
 
     fn most_of_successors(&self, of_states: &[f64]) -> Vec<f64> {
-        self.reach.most(&self.ground, of_states)
+        self.grounds.iter().flat_map(|ground| self.reach.most(ground, of_states)).collect()
     }
 }

@@ -1,9 +1,11 @@
 //! The controller as self-describing JSON.
 
+use super::memory_json::memory_tables;
 use crate::controller::Controller;
 use crate::controller::law::Law;
 use crate::partition::{CellId, CellKind};
 use crate::problem::Problem;
+use crate::task::Memory;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -15,7 +17,7 @@ use std::io::{self, Write};
 /// What writing gives.
 pub fn write_json(controller: &Controller, problem: &Problem, mut out: impl Write) -> io::Result<()> {
     let system = problem.step_system();
-    let value = json!({
+    let mut value = json!({
         "format": "dynabs controller",
         "format_version": 1,
         "version": env!("CARGO_PKG_VERSION"),
@@ -56,9 +58,14 @@ pub fn write_json(controller: &Controller, problem: &Problem, mut out: impl Writ
             "bounds_about": "the guaranteed probability of success from each cell at the start",
             "bounds": bounds(controller),
         },
-        "policy": policy(controller),
+        "policy": policy(controller, 0),
         "targets": targets(controller),
     });
+    if let Some(memory) = memory_tables(controller) {
+        let by_memory = (0..controller.task().memories()).map(|memory| policy(controller, memory));
+        value["policy"] = json!({"about": "one for each memory", "by_memory": by_memory.collect::<Vec<_>>()});
+        value["memory"] = memory;
+    }
     serde_json::to_writer(&mut out, &value)?;
     writeln!(out)
 }
@@ -96,14 +103,15 @@ pub(super) fn bounds(controller: &Controller) -> Vec<f64> {
     (0..controller.num_cells()).map(|cell| controller.bound(CellId(cell))).collect()
 }
 
-/// The actions at the start and what changes from step to step.
-fn policy(controller: &Controller) -> Value {
+/// The actions of a memory at the start and what changes from step to step.
+fn policy(controller: &Controller, memory: Memory) -> Value {
     let cells = || (0..controller.num_cells()).map(CellId);
-    let first = |cell: CellId| controller.entries(0, cell).last().map(|entry| json!([cell.0, entry.action]));
+    let first =
+        |cell: CellId| controller.entries(memory, cell).last().map(|entry| json!([cell.0, entry.action]));
     let mut changes: BTreeMap<u64, Vec<Value>> = BTreeMap::new();
     if let Some(horizon) = controller.horizon() {
         for cell in cells() {
-            let entries = controller.entries(0, cell);
+            let entries = controller.entries(memory, cell);
             for pair in entries.windows(2) {
                 let step = horizon + 1 - pair[1].steps_left;
                 changes.entry(step).or_default().push(json!([cell.0, pair[0].action]));
@@ -127,7 +135,9 @@ fn policy(controller: &Controller) -> Value {
 
 /// The points of the targets that are used.
 fn targets(controller: &Controller) -> Value {
-    let entries = (0..controller.num_cells()).flat_map(|cell| controller.entries(0, CellId(cell)));
+    let pairs = (0..controller.task().memories())
+        .flat_map(|memory| (0..controller.num_cells()).map(move |cell| (memory, CellId(cell))));
+    let entries = pairs.flat_map(|(memory, cell)| controller.entries(memory, cell));
     let points: BTreeMap<u32, &[f64]> =
         entries.map(|entry| (entry.action, controller.action(entry.action))).collect();
     points.into_iter().map(|(target, point)| (target.to_string(), json!(point))).collect()

@@ -7,6 +7,7 @@ mod c_text;
 mod csv;
 mod input_json;
 mod json;
+mod memory_json;
 
 pub use c_source::{CSourceError, c_source};
 pub use csv::write_csv;

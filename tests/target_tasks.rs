@@ -1,0 +1,286 @@
+//! Tasks over named regions for actions that are targets: values, what the closed loop does, the C code.
+
+use crate::common::controllers::Loop;
+use crate::common::{c_compiler, compile_c};
+use dynabs::controller::export::{c_source, write_csv, write_json};
+use dynabs::controller::{Decision, Noise, RunMemory, Simulation};
+use dynabs::guarantee::Coverage;
+use dynabs::model_file::Document;
+use dynabs::problem::Problem;
+use dynabs::task::{Aim, Safety};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha12Rng;
+use serde_json::{Value, json};
+use std::io::{Read, Write};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// A package to be picked up at `a` and brought to `c` without meeting `b`. The faces of `a` and `b` cut cells, and `c` is a
+/// triangle.
+fn model(task: &Value) -> Value {
+    json!({
+        "name": "room",
+        "dynamics": {"A": [[0.9, 0], [0, 0.9]], "B": [[1, 0], [0, 1]]},
+        "noise": {"gaussian": {"mean": [0, 0], "covariance": [[0.01, 0], [0, 0.01]]}, "count": 4000, "seed": 3},
+        "input": {"lower": [-1, -1], "upper": [1, 1]},
+        "partition": {"lower": [-3, -3], "upper": [3, 3], "cells": [12, 12]},
+        "regions": {
+            "a": {"lower": [1.2, -1], "upper": [3, 1.2]},
+            "b": [{"lower": [-0.5, -2], "upper": [0.25, 0]}, {"lower": [2, 2], "upper": [3, 3]}],
+            "c": {"G": [[1, 1], [-1, 0], [0, -1]], "g": [-2.25, 3, 3]}
+        },
+        "task": task,
+        "initial_state": [-2, 2]
+    })
+}
+
+fn stated(model: &Value) -> Result<Problem, String> {
+    let document = Document::parse(Path::new("m.json"), &model.to_string()).unwrap();
+    document.problem().map_err(|error| error.to_string())
+}
+
+fn solved(task: &Value) -> Loop {
+    Loop::new(stated(&model(task)).unwrap())
+}
+
+fn sequence(horizon: u64) -> Value {
+    json!({"type": "sequence", "sequence": [{"reach": "a"}, {"reach": "c", "avoid": ["b"]}], "horizon": horizon})
+}
+
+fn formula(text: &str, logic: &str, horizon: u64) -> Value {
+    json!({"type": "formula", "formula": text, "logic": logic, "horizon": horizon})
+}
+
+/// As another tool may write `F (a & (!b U c))`.
+const DELIVERY: &str = r#"HOA: v1
+States: 3
+Start: 0
+AP: 3 "c" "b" "a"
+Acceptance: 1 Inf(0)
+--BODY--
+State: 0 [!2 | !0 & 1] 0 [2 & !0 & !1] 1 [0 & 2] 2
+State: 1 [!0 & !1] 1 [!0 & 1 & !2] 0 [!0 & 1 & 2] 0 [0] 2
+State: 2 {0} [t] 2
+--END--
+"#;
+
+/// What is to be done in some ways, all with a memory or an end of its own.
+fn tasks() -> Vec<Value> {
+    let mut avoiding = sequence(9);
+    avoiding["unsafe"] = json!([{"lower": [-3, 0.25], "upper": [-2.5, 1]}]);
+    vec![
+        sequence(9),
+        avoiding,
+        formula("G !b", "ltl", 5),
+        formula("(!b W a) & G !c", "ltl", 5),
+        formula("!b W a", "ltl", 5),
+        formula("(F a) & G !b", "ltlf", 6),
+        json!({"type": "reach_at", "goal": ["a"], "horizon": 7}),
+        json!({"type": "automaton", "automaton": {"hoa": DELIVERY}, "horizon": 9}),
+    ]
+}
+
+#[test]
+fn runs_keep_what_is_promised() {
+    let mut open = 0;
+    for task in tasks() {
+        let Loop { problem, abstraction, answer, controller } = solved(&task);
+        let coverage = abstraction.guarantee.coverage(&abstraction.property, &abstraction.model);
+        assert_eq!(coverage.unwrap(), Coverage::Lower, "{task}");
+        assert_eq!(controller.promised().bound, answer.lower);
+        let simulation = Simulation::new(&problem, &controller, Noise::of_plant(problem.noise()), 1000);
+        for start in [[-2.0, 2.0], [1.3, 0.7], [-2.2, 0.1]] {
+            let tally = simulation.tally(&start, 1, 2000, &());
+            let seen = tally.satisfaction(Safety::EveryStep, 1e-6);
+            let bound = controller.bound_at(&start);
+            assert!(seen.upper >= bound, "{task} from {start:?}: {bound} {seen:?}");
+            assert_eq!(tally.violations, 0);
+            open += usize::from(bound > 0.3);
+        }
+    }
+    assert!(open > 12, "{open} of the bounds say something");
+}
+
+/// Known noise instead of samples: the same models with tighter rows.
+#[test]
+fn known_noise_promises_more() {
+    let mut known = model(&sequence(14));
+    known["actions"] = json!("targets");
+    known["noise"] =
+        json!({"components": [{"gaussian": {"deviation": 0.1}}, {"gaussian": {"deviation": 0.1}}]});
+    let Loop { problem, abstraction, answer, controller } = Loop::new(stated(&known).unwrap());
+    let sampled = solved(&sequence(14)).answer.lower;
+    assert!(answer.lower > sampled && sampled > 0.1, "{} {sampled}", answer.lower);
+    assert_eq!(abstraction.model.rows().len(), 2 * abstraction.targets.len());
+    let simulation = Simulation::new(&problem, &controller, Noise::of_plant(problem.noise()), 1000);
+    let seen = simulation.tally(&[-2.0, 2.0], 1, 2000, &()).satisfaction(Safety::EveryStep, 1e-6);
+    assert!(seen.upper >= answer.lower, "{} {seen:?}", answer.lower);
+}
+
+/// Equal tasks have equal values, however they are written.
+#[test]
+fn ways_of_saying_a_task_agree() {
+    let values = |task: &Value| {
+        let Loop { abstraction, answer, .. } = solved(task);
+        let lower = |state: &imdp::model::StateId| answer.values.lower[state.index()];
+        abstraction.state_of_cell.iter().map(lower).collect::<Vec<f64>>()
+    };
+    let by_sequence = values(&sequence(9));
+    for other in [
+        formula("F (a & (!b U c))", "ltl", 9),
+        json!({"type": "automaton", "automaton": {"hoa": DELIVERY}, "horizon": 9}),
+    ] {
+        assert_eq!(by_sequence, values(&other));
+    }
+    assert!(by_sequence.iter().any(|&value| value > 0.5));
+
+    let mut aligned = model(&formula("!wall U goal", "ltl", 5));
+    let goal = json!([{"lower": [1, -1], "upper": [3, 1]}]);
+    let wall = json!([{"lower": [-0.5, -2], "upper": [0, 0]}]);
+    aligned["regions"] = json!({"goal": goal, "wall": wall});
+    let by_formula = Loop::new(stated(&aligned).unwrap());
+    let reach = solved(&json!({"goal": goal, "unsafe": wall, "horizon": 5}));
+    assert_eq!(by_formula.answer.values.lower, reach.answer.values.lower);
+    assert_eq!(by_formula.abstraction.model.rows(), reach.abstraction.model.rows());
+}
+
+/// The rows of a model belong to memories; those who end alike share their events.
+#[test]
+fn the_product_is_as_large_as_what_can_be_open() {
+    let Loop { problem, abstraction, .. } = solved(&sequence(9));
+    let (model, targets) = (&abstraction.model, abstraction.targets.len());
+    assert_eq!((problem.worst_task().memories(), model.rows().len()), (2, 2 * targets));
+    let cells = problem.grid().num_cells() as usize;
+    assert!(model.num_states() < 2 * cells && model.num_states() > cells, "{}", model.num_states());
+    let budget = &abstraction.guarantee.samples().unwrap().budget;
+    let events = |family: &str| budget.iter().find(|one| one.family == family).unwrap().events.to_string();
+    // Nothing can be done before `a` was met.
+    assert_eq!([events("goal"), events("lost")], [targets.to_string(), (2 * targets).to_string()]);
+
+    let Loop { problem, abstraction, .. } = solved(&json!({"type": "reach_at", "goal": ["a"], "horizon": 7}));
+    assert_eq!((problem.cell_task().aim(), problem.worst_task().aim()), (Aim::End, Aim::Reach));
+    let budget = &abstraction.guarantee.samples().unwrap().budget;
+    assert_eq!(
+        budget.iter().find(|one| one.family == "lost").unwrap().events.to_string(),
+        (2 * targets).to_string()
+    );
+}
+
+#[test]
+fn what_cannot_be_asked_is_explained() {
+    let grouped = |task: &Value, d: u64| {
+        let mut model = model(task);
+        model["dynamics"]["group_steps"] = json!(d);
+        stated(&model)
+    };
+    for (problem, expected) in [
+        (grouped(&sequence(8), 2), "\"check\": \"grouped\""),
+        (grouped(&formula("G !b", "ltl", 4), 2), "which look at every step"),
+        (grouped(&json!({"type": "reach_at", "goal": ["a"], "horizon": 5}), 2), "a multiple of 2"),
+        (stated(&model(&formula("F ((a & X b) | (!a & X !b))", "ltl", 5))), "Align the faces"),
+    ] {
+        let error = problem.map(|problem| problem.name().to_owned()).unwrap_err();
+        assert!(error.contains(expected), "{error}");
+    }
+    let to_come = json!({"type": "sequence", "sequence": [{"reach": "a"}, {"reach": "c"}], "horizon": 8});
+    assert!(grouped(&to_come, 2).is_ok());
+    let mut reference = model(&sequence(8));
+    reference["probabilities"] = json!({"mode": "reference"});
+    assert!(stated(&reference).unwrap_err().contains("the published tool has no other"));
+}
+
+/// Reads states and steps of runs, one after the other, and writes what the controller says.
+const HARNESS: &str = r#"
+#include <stdio.h>
+#include "controller.c"
+int main(void) {
+    double x[ROOM_STATES];
+    uint32_t k, memory = ROOM_START;
+    while (fread(x, sizeof x, 1, stdin) == 1 && fread(&k, sizeof k, 1, stdin) == 1) {
+        double u[ROOM_GROUP][ROOM_INPUTS] = {{0}};
+        uint32_t status;
+        if (k == 0) {
+            memory = ROOM_START;
+        }
+        status = room_control(x, k, &memory, u);
+        if (fwrite(&status, sizeof status, 1, stdout) != 1 || fwrite(u, sizeof u, 1, stdout) != 1) {
+            return 1;
+        }
+    }
+    return 0;
+}
+"#;
+
+#[test]
+fn c_code_follows_the_memory() {
+    let Some(compiler) = c_compiler() else {
+        eprintln!("SKIPPED: no C compiler (cc, gcc, clang) here, the C code was not tested");
+        return;
+    };
+    let mut done = 0;
+    for task in [sequence(8), formula("(F a) & G !b", "ltlf", 4)] {
+        let Loop { problem, controller, .. } = solved(&task);
+        let scratch = tempfile::TempDir::new().unwrap();
+        let source = c_source(&controller, problem.name(), "controller.c").unwrap();
+        compile_c(compiler, scratch.path(), &source, HARNESS);
+        let mut rng = ChaCha12Rng::seed_from_u64(3);
+        let mut unit = || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+        let looks: Vec<([f64; 2], u32)> =
+            (0..20_000).map(|i| ([unit() * 6.1 - 3.05, unit() * 6.1 - 3.05], i % 10)).collect();
+        let looked = scratch.path().join("looks");
+        let mut file = std::fs::File::create(&looked).unwrap();
+        for (x, k) in &looks {
+            file.write_all(&[x[0].to_ne_bytes(), x[1].to_ne_bytes()].concat()).unwrap();
+            file.write_all(&k.to_ne_bytes()).unwrap();
+        }
+        drop(file);
+        let mut program = Command::new(scratch.path().join("main"))
+            .stdin(Stdio::from(std::fs::File::open(&looked).unwrap()))
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut answers = vec![];
+        program.stdout.take().unwrap().read_to_end(&mut answers).unwrap();
+        assert!(program.wait().unwrap().success());
+        let mut memory = RunMemory::default();
+        for ((x, k), answer) in looks.iter().zip(answers.chunks_exact(20)) {
+            if *k == 0 {
+                memory = RunMemory::default();
+            }
+            let mut u = [0.0; 2];
+            let status: u32 = match controller.control(x, u64::from(*k), &mut memory, &mut u) {
+                Decision::Act { .. } => 0,
+                Decision::Reached => 1,
+                Decision::Unsafe => 2,
+                Decision::Outside => 3,
+                Decision::NoAction => 4,
+                Decision::Over => 5,
+            };
+            done += u32::from(status == 1);
+            assert_eq!(u32::from_ne_bytes(answer[..4].try_into().unwrap()), status, "{x:?} at {k}");
+            for (u, bytes) in u.iter().zip(answer[4..].chunks_exact(8)) {
+                assert_eq!(*u, f64::from_ne_bytes(bytes.try_into().unwrap()), "{x:?} at {k}");
+            }
+        }
+    }
+    assert!(done > 1000, "{done}");
+}
+
+#[test]
+fn files_carry_the_memory() {
+    let Loop { problem, abstraction, controller, .. } = solved(&sequence(8));
+    let (mut text, mut table) = (vec![], vec![]);
+    write_json(&controller, &problem, &mut text).unwrap();
+    let value: Value = serde_json::from_slice(&text).unwrap();
+    assert_eq!(value["memory"]["memories"], 2);
+    assert_eq!(value["policy"]["by_memory"].as_array().unwrap().len(), 2);
+    let first = &value["policy"]["by_memory"][1]["start"][0];
+    assert!(value["targets"][first[1].to_string()].is_array(), "{first}");
+    write_csv(&controller, problem.grid(), &mut table).unwrap();
+    let table = String::from_utf8(table).unwrap();
+    assert!(table.starts_with("memory,from_step,") && table.contains("\n1,0,"));
+    let words = controller.promise().join(" ");
+    assert!(words.contains("the run comes to a, then to c (not meeting b before)"), "{words}");
+    assert!(words.contains("the task and its regions"), "{words}");
+    assert!(abstraction.model.variables().iter().any(|variable| variable.name == "memory"));
+}
