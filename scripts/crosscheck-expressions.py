@@ -5,29 +5,26 @@
 
 Models are small, with lower bounds and rewards above 0 or, for the fractions only, of 0; many stand side by side in one file, so that one
 start of a solver answers a question for all of them: R (reach, cumulative, instantaneous, co-safe), LTL, and P nested in P.
-PRISM's values (-epsilon 1e-10) must be within the bounds or 1e-6 of them. Exact values are those of all memoryless policies
+`dynabs-check crosscheck` compares the bounds of all states with PRISM. Exact values are those of all memoryless policies
 and of all corners of nature, for LTL on the product with a deterministic automaton made by hand; they must be within the
-bounds, without any allowance. Goes on until every kind has been compared so many times with both. Ends with 1 if a value
+bounds, without any allowance. Goes on until every kind has been compared in so many models with both. Ends with 1 if a value
 differs, and with 77 if PRISM is missing and all else agrees. Needs nothing but Python's standard library.
 """
 
 import argparse
-import json
 import math
+import os
 import random
-import re
-import subprocess
 import sys
 import tempfile
 from fractions import Fraction
 from pathlib import Path
 
-from crosscheck.dynabs import find
+from crosscheck.dynabs import Dynabs, find
 from crosscheck.exact import earned_before, flipped, optimum, parity_value, size, steps
 from crosscheck.formulas import cosafe_formulas, formulas
 
 KINDS = ("maxmin", "maxmax", "minmin", "minmax")
-TOLERANCE = 1e-6
 # How many models stand side by side, how many questions of a kind they are asked, and how many chains a value may take.
 SIDE_BY_SIDE, QUESTIONS, MOST_CHAINS = 25, 8, 1000
 
@@ -149,38 +146,17 @@ def number(value):
     return math.nan if value is None else float(str(value).replace("Infinity", "inf"))
 
 
-def ours(dynabs, stem, questions):
-    """The bounds of dynabs in the initial states."""
-    Path(f"{stem}.props").write_text("".join(f"{question};\n" for question in questions))
-    command = [dynabs, "solve", f"{stem}.tra", f"{stem}.props", "--json", "-q", "--epsilon", "1e-8"]
-    output = subprocess.run(command, capture_output=True, text=True, check=False)
-    try:
-        results = json.loads(output.stdout)["results"]
-    except ValueError:
-        sys.exit(f"{stem}: {output.stderr}")
-    return [[(number(at["lower"]), number(at["upper"])) for at in result["initial"]] for result in results]
-
-
-def prisms(prism, stem, questions):
-    """The values of PRISM in the initial states; None where it has none."""
-    Path(f"{stem}.props").write_text("".join(f'filter(printall, {question}, "init");\n' for question in questions))
-    command = [prism, "-importmodel", f"{stem}.tra,sta,lab,srew", f"{stem}.props", "-ex"]
-    command += ["-epsilon", "1e-10", "-maxiters", "1000000"]
-    output = subprocess.run(command, capture_output=True, text=True, check=False).stdout
-    parts = output.split("Model checking: ")[1:]
-    found = [re.findall(r"^\d+:\(\d+\)=(\S+)", part, flags=re.MULTILINE) for part in parts]
-    return [[number(value) for value in values] or None for values in found]
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seed", type=int, default=14001)
     parser.add_argument("--wanted", type=int, default=1000)
-    parser.add_argument("--prism", default=find("prism"))
+    parser.add_argument("--prism", default=os.environ.get("PRISM", "prism"))
     parser.add_argument("--dynabs", default="dynabs-check")
     arguments = parser.parse_args()
     numbers = random.Random(arguments.seed)
-    engines = ("PRISM", "exact") if arguments.prism else ("exact",)
+    prism = find(arguments.prism)
+    dynabs = Dynabs(arguments.dynabs, ["--with", "prism", "--prism", prism])
+    engines = ("PRISM", "exact") if prism else ("exact",)
     compared = {(kind, engine): 0 for kind in QUESTION for engine in engines}
     batch = differences = 0
     with tempfile.TemporaryDirectory() as scratch:
@@ -191,34 +167,34 @@ def main():
             write(models, stem)
             asked = [(name, *make(numbers, numbers.choice(KINDS))) for name, make in QUESTION.items() for _ in range(QUESTIONS)]
             questions = [question for _, question, _ in asked]
-            bounds = ours(arguments.dynabs, stem, questions)
-            others = [None] * len(asked)
-            if arguments.prism and not zeros:
-                others = prisms(arguments.prism, stem, questions)
-                if len(others) != len(asked):
-                    sys.exit(f"PRISM answers {len(others)} of {len(asked)} questions")
-            for (name, question, exact), own, other in zip(asked, bounds, others):
-                for index, (model, (lower, upper)) in enumerate(zip(models, own)):
-                    wrong = []
+            tra = f"{stem}.tra"
+            bounds = [result["initial"] for result in dynabs.results(tra, questions, 1e-8)]
+            for (name, question, exact), own in zip(asked, bounds, strict=True):
+                for index, (model, ends) in enumerate(zip(models, own, strict=True)):
+                    lower, upper = number(ends["lower"]), number(ends["upper"])
                     value = exact(model)
-                    if value is not None:
-                        compared[name, "exact"] += 1
-                        # Comparisons of floats with fractions are exact.
-                        if not lower <= value <= upper:
-                            wrong.append(f"exactly {value}")
-                    if other is not None:
-                        compared[name, "PRISM"] += 1
-                        theirs = other[index]
-                        slack = TOLERANCE * max(1.0, abs(theirs)) if math.isfinite(theirs) else 0.0
-                        if not lower - slack <= theirs <= upper + slack:
-                            wrong.append(f"PRISM {theirs}")
-                    if wrong:
+                    if value is None:
+                        continue
+                    compared[name, "exact"] += 1
+                    # Comparisons of floats with fractions are exact.
+                    if not lower <= value <= upper:
                         differences += 1
-                        print(f"batch {batch}, model {index}: {question}: [{lower}, {upper}], {', '.join(wrong)}")
+                        print(f"batch {batch}, model {index}: {question}: [{lower}, {upper}], exactly {value}")
                         write([model], f"difference-{differences}")
+            findings = dynabs.crosscheck(tra, questions) if prism and not zeros else []
+            for (name, question, _), finding in zip(asked, findings):
+                if finding["agreement"] == "agrees":
+                    compared[name, "PRISM"] += len(models)
+                elif finding["agreement"] == "disagrees":
+                    differences += 1
+                    at = f"{finding['value']} against {finding['ours']} in state {finding['state']}"
+                    print(f"batch {batch}: {question}: PRISM has {at}: {'; '.join(finding['notes'])}")
+                    write(models, f"difference-{differences}")
+                else:
+                    print(f"batch {batch}: {question}: {finding['agreement']}: {'; '.join(finding['notes'])}")
             print(", ".join(f"{kind} {engine} {count}" for (kind, engine), count in compared.items()), flush=True)
     print(f"seed {arguments.seed}: {differences} differences")
-    sys.exit(1 if differences else 0 if arguments.prism else 77)
+    sys.exit(1 if differences else 0 if prism else 77)
 
 
 if __name__ == "__main__":

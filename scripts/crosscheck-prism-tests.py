@@ -5,10 +5,11 @@
 
 Every model with intervals below the directories (checkouts of prism-tests and of prism's prism-examples) is exported by
 PRISM in every format that it has: .tra with .sta, .lab and rewards, DRN, UMB and .pexp. dynabs answers all properties of the
-model from each of them, with the constants that PRISM's .args files or `auto` scripts name. What PRISM says, asked the same
-with -epsilon 1e-8, and the RESULT comments of its tests must lie within dynabs' bounds or the 1e-5 that PRISM's own tests
-allow; all formats must give the same bounds. A property counts as agreeing if it agrees for all constants. PRISM's DRN has no
-variables and no rewards of transitions: properties that need them are left out there, and intervals compared instead.
+model from each of them, with the constants that PRISM's .args files or `auto` scripts name. `dynabs-check crosscheck` asks
+PRISM the same, and compares all states; the RESULT comments of its tests must lie within dynabs' bounds or the 1e-5 that
+PRISM's own tests allow; all formats must give the same bounds. A property counts as agreeing if it agrees for all constants.
+PRISM's DRN has no variables and no rewards of transitions: properties that need them are left out there, and intervals
+compared instead.
 
 Prints a line for every model. Ends with 1 if anything differs, and with 77 if PRISM or its models are missing. Needs nothing
 but Python's standard library.
@@ -25,7 +26,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from crosscheck.dynabs import find
+from crosscheck.dynabs import Dynabs, Failure, find
 
 TOLERANCE = 1e-5
 FORMATS = ("tra", "drn", "umb", "pexp")
@@ -120,19 +121,6 @@ def promised(comments, constants):
     return None
 
 
-def prisms(output, count):
-    """What PRISM says about each property: a number, a truth value, or None with its error."""
-    values = []
-    for part in re.split(r"^Model checking: .*$", output, flags=re.MULTILINE)[1:]:
-        result = re.search(r"^Result: (\S+)", part, flags=re.MULTILINE)
-        text = result[1] if result else None
-        if text in ("true", "false"):
-            values.append(text == "true")
-        else:
-            values.append(float(text.replace("Infinity", "inf")) if text else None)
-    return values + [None] * (count - len(values))
-
-
 def difference(result, value):
     """How far a value lies outside of dynabs' bounds; relative above 1, infinite for another truth value."""
     if isinstance(value, bool) or value is None:
@@ -165,15 +153,12 @@ class Model:
     def check(self, arguments, given, scratch):
         constants = [f"{name}={value}" for name, value in given.items()]
         named = ["-const", ",".join(constants)] if constants else []
-        props = scratch / "asked.props"
-        props.write_text(self.shipped)
         exports = itertools.chain(["-exportmodel", "m.tra,sta,lab,srew,trew"], *(["-exportmodel", f"m.{end}"] for end in FORMATS[1:]))
-        command = [arguments.prism, str(self.path), *([str(props)] if self.properties else []), "-ex", *named, *exports]
-        command += ["-exportmodelprecision", "17", "-epsilon", "1e-8", "-maxiters", "1000000"]
-        done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=scratch)
-        theirs = prisms(done.stdout, len(self.properties))
+        command = [arguments.prism, str(self.path), "-ex", *named, *exports, "-exportmodelprecision", "17"]
+        subprocess.run(command, capture_output=True, check=False, cwd=scratch)
         known = known_constants([self.text, self.shipped], given)
         # The model's own constants and formulas in front; labels are in the exports.
+        props = scratch / "asked.props"
         props.write_text("\n".join(definitions(self.text)) + "\n" + self.shipped)
         first = None
         for end in FORMATS:
@@ -189,20 +174,41 @@ class Model:
                 at = f"{end} {' '.join(constants)}: {text}"
                 if "error" in answer:
                     self.fault(index, f"{at}: {answer['error']}")
-                for who, value in (("PRISM", theirs[index]), ("RESULT", promised(comments, known))):
-                    if difference(answer, value) > TOLERANCE:
-                        self.fault(index, f"{at}: [{answer.get('lower')}, {answer.get('upper')}] {answer.get('satisfied')}, {who} {value}")
-                    self.compared += value is not None
-                if theirs[index] is None:
-                    self.prism_only_refuses.add(index)
-                    if promised(comments, known) is None:
-                        self.fault(index, f"{at}: nothing to compare with")
+                value = promised(comments, known)
+                if difference(answer, value) > TOLERANCE:
+                    self.fault(index, f"{at}: [{answer.get('lower')}, {answer.get('upper')}] {answer.get('satisfied')}, RESULT {value}")
+                self.compared += value is not None
             ends = [[answer.get(key) for key in ("lower", "upper", "satisfied")] for answer in answers]
             if first is not None and any(a != b for a, b, is_lost in zip(ends, first, lost) if not is_lost):
                 self.fault(f".{end}", f"{end} {' '.join(constants)}: other bounds than from .tra")
+            if first is None and self.properties:
+                self.crosscheck(arguments, (scratch / f"m.{end}", props), given, known)
             first = first or ends
             if end == "drn":
                 self.same_intervals(arguments, scratch, constants)
+
+    def crosscheck(self, arguments, asked, given, known):
+        """What PRISM says of all states."""
+        dynabs = Dynabs(arguments.dynabs, ["--with", "prism", "--prism", arguments.prism])
+        constants = [f"--const={name}={value}" for name, value in given.items()]
+        try:
+            findings = dynabs.run("crosscheck", *asked, *constants, *dynabs.engines)["findings"]
+        except Failure as failure:
+            self.fault("crosscheck", str(failure))
+            return
+        if len(findings) != len(self.properties):
+            self.fault("crosscheck", f"PRISM was asked {len(findings)} of {len(self.properties)} properties")
+            return
+        for index, ((text, comments), finding) in enumerate(zip(self.properties, findings)):
+            at = f"{' '.join(constants)}: {text}: {'; '.join(finding['notes'])}"
+            if finding["agreement"] == "disagrees":
+                self.fault(index, f"{at}: {finding['ours']}, PRISM {finding['value']}, {finding['difference']} apart in state {finding['state']}")
+            elif finding["agreement"] == "agrees":
+                self.compared += 1
+            else:
+                self.prism_only_refuses.add(index)
+                if promised(comments, known) is None:
+                    self.fault(index, f"{at}: nothing to compare with")
 
     def needs_more_than_drn(self, scratch, text, answer):
         """Whether a property is about variables or rewards of transitions."""

@@ -46,6 +46,7 @@ mod solution;
 mod solver;
 mod soundness;
 mod steering;
+mod sweep;
 mod systems;
 mod target_tasks;
 mod tasks;

@@ -114,7 +114,7 @@ fn mistakes_are_refused_with_their_place() {
         }
         let Err(error) = import_text(text.as_bytes()) else { panic!("{new:?} is accepted") };
         let message = error.to_string();
-        assert!(message.contains(&format!("m.drn:{place}: expected")), "{new:?}: {message}, not at {place}");
+        assert!(message.contains(&format!("m.drn:{place}: found")), "{new:?}: {message}, not at {place}");
         for word in *words {
             assert!(message.contains(word), "{new:?}: {message}, without {word}");
         }

@@ -256,7 +256,7 @@ fn mistakes_are_refused_with_their_place() {
         };
         let message = error.to_string();
         assert!(
-            message.contains(&format!("m.umb:{place}: expected")),
+            message.contains(&format!("m.umb:{place}: found")),
             "case {number}: {message}, not at {place}"
         );
         for word in *words {

@@ -44,7 +44,7 @@ fn import_texts(tra: &str, sta: Option<&str>, lab: &str) -> Result<Imported, Imp
 fn assert_refused(what: &str, outcome: Result<Imported, ImportError>, place: &str, words: &[&str]) {
     let Err(error) = outcome else { panic!("{what:?} is accepted") };
     let message = error.to_string();
-    assert!(message.contains(&format!("{place}: expected")), "{what:?}: {message}, not at {place}");
+    assert!(message.contains(&format!("{place}: found")), "{what:?}: {message}, not at {place}");
     for word in words {
         assert!(message.contains(word), "{what:?}: {message}, without {word}");
     }

@@ -62,9 +62,9 @@ fn certificates_are_written_and_verified() {
         verify(&certificate, &directory)
     };
     let (code, text) = forged("claim 0.99", "claim 0.9999");
-    assert!(code == 1 && text.contains("the lower bound 0.9999"), "{text}");
+    assert!(code == 1 && text.contains("a lower bound 0.9999"), "{text}");
     let (code, text) = forged("U<=6", "U<=1");
-    assert!(code == 1 && text.contains("steps; the property has 1"), "{text}");
+    assert!(code == 1 && text.contains("steps; expected 1,"), "{text}");
     let (code, text) = forged("\nlower ", "\nlower 9 ");
     assert!(code == 2 && text.contains("line 8"), "{text}");
     let (code, text) = forged("states 34", "states 33");

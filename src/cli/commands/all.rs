@@ -2,6 +2,7 @@
 
 use super::check;
 use super::compile::{CompileArguments, compile_or_init, write_starter};
+use super::sweep;
 use crate::resources::Resources;
 use crate::{CliError, print};
 use clap::{CommandFactory, Parser, Subcommand};
@@ -32,6 +33,8 @@ enum Command {
     Schema,
     /// Compile a model file into an interval MDP with guaranteed probabilities, and solve it.
     Compile(Box<CompileArguments>),
+    /// Compile and solve a model with many settings, here or as an array of jobs for Slurm, and collect one table.
+    Sweep(sweep::SweepArguments),
     #[command(flatten)]
     Check(check::Command),
     /// Print a script with which a shell completes this command.
@@ -74,6 +77,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
         Command::Init { file } => write_starter(file, false)?,
         Command::Schema => print(&json_schema())?,
         Command::Compile(arguments) => return compile_or_init(arguments),
+        Command::Sweep(arguments) => return sweep::run(arguments),
         Command::Check(command) => return check::run_command(command),
         Command::Completions { shell } => {
             let mut script = Vec::new();

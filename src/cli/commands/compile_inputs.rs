@@ -175,6 +175,9 @@ impl From<CostError> for CliError {
     fn from(error: CostError) -> Self {
         match error {
             CostError::Reward(_) => Self::Failure(error.to_string()),
+            CostError::MicroSteps { .. } => Self::Input(format!(
+                "{error}\n  Use --encoding flat, and regions whose faces are faces of cells."
+            )),
             _ => Self::Input(error.to_string()),
         }
     }

@@ -12,5 +12,6 @@ pub mod explain;
 pub mod report;
 pub mod simulate;
 pub mod solve;
+pub mod sweep;
 pub mod validate;
 pub mod verify;

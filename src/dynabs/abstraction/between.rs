@@ -3,6 +3,7 @@
 use super::enabled::EnabledActions;
 use super::hazards::Hazards;
 use super::room::{MOST_DIMENSIONS, RUNGS, Room};
+use super::rooms::Needed;
 use super::steering::Steering;
 use super::windows::Windows;
 use crate::partition::{CellId, Grid};
@@ -15,6 +16,9 @@ use rayon::prelude::*;
 
 /// Cells per parallel task.
 const CELLS_PER_TASK: usize = 64;
+
+/// Tasks whose results are put together at once.
+const TASKS: usize = 32;
 
 /// Rooms are looked for among at most so many pairs of a cell and an action: beyond, the list of them would be what takes memory.
 const MOST_PAIRS: u64 = 1 << 24;
@@ -40,13 +44,13 @@ struct Step {
     rungs: Vec<(Vec<f64>, Vec<f64>)>,
 }
 
-/// What keeps clear of everything unsafe.
+/// What keeps clear of everything unsafe in some cells.
 #[derive(Default)]
-pub(super) struct Clear {
+struct Clear {
     /// With any noise of the largest window.
-    pub(super) actions: EnabledActions,
+    actions: EnabledActions,
     /// With noise that stays in a room: number of the cell, target and room, ascending by cell and target.
-    pub(super) with_room: Vec<(u32, RowId, Room)>,
+    with_room: Vec<(u32, RowId, Room)>,
 }
 
 impl<'a> Between<'a> {
@@ -68,13 +72,14 @@ impl<'a> Between<'a> {
     }
 
     /// The actions, out of those `enabled` in each of `cells`, that keep clear of everything unsafe; where all targets sit
-    /// alike in their cells, also those that do so if there is room for the noise.
+    /// alike in their cells, what does so if there is room for the noise is `needed`.
     pub(super) fn filter(
         &self,
         cells: &[CellId],
         enabled: &EnabledActions,
+        needed: &mut Needed,
         progress: &dyn Progress,
-    ) -> Clear {
+    ) -> EnabledActions {
         let pairs: u64 = enabled.ranges.iter().map(|range| range.rows().count() as u64).sum();
         let has_rooms = pairs <= MOST_PAIRS;
         let starts: Vec<usize> = (enabled.ranges_per_cell.iter())
@@ -85,25 +90,30 @@ impl<'a> Between<'a> {
             })
             .collect();
         let of_cell = |i: usize| &enabled.ranges[starts[i]..starts[i] + enabled.ranges_per_cell[i] as usize];
-        let parts: Vec<Clear> = cells
-            .par_chunks(CELLS_PER_TASK)
-            .enumerate()
-            .map(|(task, chunk)| {
-                let mut found = Clear::default();
-                let mut probe = Probe::new(self, has_rooms);
-                for (i, &cell) in (task * CELLS_PER_TASK..).zip(chunk) {
-                    let before = found.actions.ranges.len();
-                    probe.start_in(cell);
-                    of_cell(i).iter().for_each(|range| probe.push_clear(i as u32, range, &mut found));
-                    found.actions.ranges_per_cell.push((found.actions.ranges.len() - before) as u32);
-                }
-                progress.advance(chunk.len() as u64);
-                found
-            })
-            .collect();
-        let (actions, with_room): (Vec<_>, Vec<_>) =
-            parts.into_iter().map(|part| (part.actions, part.with_room)).unzip();
-        Clear { actions: EnabledActions::concatenated(actions), with_room: with_room.concat() }
+        let of_task = |least: Option<usize>, task: usize, chunk: &[CellId]| {
+            let mut found = Clear::default();
+            let mut probe = Probe::new(self, least);
+            for (i, &cell) in (task * CELLS_PER_TASK..).zip(chunk) {
+                let before = found.actions.ranges.len();
+                probe.start_in(cell);
+                of_cell(i).iter().for_each(|range| probe.push_clear(i as u32, range, &mut found));
+                found.actions.ranges_per_cell.push((found.actions.ranges.len() - before) as u32);
+            }
+            progress.advance(chunk.len() as u64);
+            found
+        };
+        let tasks: Vec<(usize, &[CellId])> = cells.chunks(CELLS_PER_TASK).enumerate().collect();
+        let mut actions = EnabledActions::default();
+        for tasks in tasks.chunks(TASKS) {
+            let least = needed.least().filter(|_| has_rooms);
+            let parts: Vec<Clear> =
+                tasks.par_iter().map(|&(task, chunk)| of_task(least, task, chunk)).collect();
+            for part in parts {
+                actions.append(part.actions);
+                needed.add(part.with_room);
+            }
+        }
+        actions
     }
 }
 
@@ -147,7 +157,8 @@ impl Step {
 /// What a task reuses from cell to cell.
 struct Probe<'a> {
     between: &'a Between<'a>,
-    has_rooms: bool,
+    /// The least rung that rooms may be limited to, if there may be rooms.
+    least: Option<usize>,
     /// Per step, `S c`.
     by_cell: Vec<Vec<f64>>,
     center: Vec<f64>,
@@ -156,7 +167,7 @@ struct Probe<'a> {
 }
 
 impl<'a> Probe<'a> {
-    fn new(between: &'a Between<'a>, has_rooms: bool) -> Self {
+    fn new(between: &'a Between<'a>, least: Option<usize>) -> Self {
         let zero = vec![0.0; between.grid.dimension()];
         Self {
             by_cell: vec![zero.clone(); between.steps.len()],
@@ -164,7 +175,7 @@ impl<'a> Probe<'a> {
             lower: zero.clone(),
             upper: zero,
             between,
-            has_rooms,
+            least,
         }
     }
 
@@ -212,9 +223,7 @@ impl<'a> Probe<'a> {
 
     /// The room in which an action keeps clear of everything unsafe.
     fn room(&self, target: RowId) -> Option<Room> {
-        if !self.has_rooms {
-            return None;
-        }
+        let least = self.least?;
         let n = self.center.len();
         let steps = self.between.steps.iter().zip(&self.by_cell);
         steps.into_iter().try_fold(Room::default(), |room, (step, by_cell)| {
@@ -225,7 +234,7 @@ impl<'a> Probe<'a> {
                 Some(by_target[side / 2] + by_cell[side / 2] + noise[side / 2])
             };
             // No number is clear of anything.
-            self.between.hazards.room(room, |side, rung| face(side, rung).unwrap_or(f64::NAN))
+            self.between.hazards.room(room, least, |side, rung| face(side, rung).unwrap_or(f64::NAN))
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::base::{Base, Intervals};
 use super::enabling::Enabling;
-use super::pac::{PacRows, Preference};
+use super::pac::{PacRows, Preference, Worth};
 use super::states::{FAILED, REACHED, StateSpace, labels};
 use super::steering::Steering;
 use super::targets::Targets;
@@ -14,8 +14,8 @@ use crate::problem::{Knowledge, Problem};
 use crate::system::FeedbackLaw;
 use crate::task::{Aim, Memory};
 use imdp::model::{
-    ActionNames, Choices, ChoicesBuilder, ImdpError, IntervalMdp, ModelKind, Parts, RowId, RowRange, RowSet,
-    StateId, StateSet,
+    ActionNames, Choices, ImdpError, IntervalMdp, ModelKind, Parts, RowId, RowRange, RowSet, StateId,
+    StateSet,
 };
 use imdp::progress::Progress;
 use imdp::property::{PathFormula, Property, Resolution, StateFormula, Threshold, ThresholdComparison};
@@ -80,12 +80,13 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
     clock.lap("memory");
 
     let states = state_space(problem);
-    let Base { placements, intervals, enabling } = Base::new(problem, &states, &steering, progress)?;
+    let Base { placements, intervals, mut enabling } = Base::new(problem, &states, &steering, progress)?;
     let footprint = footprint.with_rooms(problem, &enabling.targets)?;
     clock.lap("enabled actions");
 
+    let mut warnings = warnings(problem, &enabling);
+    let choices = choices(problem, &states, &mut enabling);
     let targets = &enabling.targets;
-    let choices = choices(problem, &states, &enabling);
     let blocked = states.select(|state| is_blocked(problem, &states, &choices, state));
     clock.lap("choices");
 
@@ -128,13 +129,13 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
             let pac = PacRows::new((problem, noise), *prepared, &enabling, placements, &states)?;
             let rows = pac.rows(Preference::LeastFailing, "rows", progress);
             clock.lap("rows");
-            let values = scout(&model_of(rows)?, &property)?;
-            let rows = pac.rows(Preference::Worth(&values), "choice of windows", progress);
+            let values = scout(&model_of(rows.clone())?, &property)?;
+            let worth = Worth::new(values, &rows);
+            let rows = pac.rows(Preference::Worth(&worth), "choice of windows", progress);
             clock.lap("choice of windows");
             (rows, Evidence::Samples(pac.evidence()))
         }
     };
-    let mut warnings = warnings(problem, &enabling);
     warnings.extend(contradiction);
     let model = model_of(rows)?;
     clock.lap("model");
@@ -183,11 +184,12 @@ impl Abstraction {
         let footprint = Footprint::new(problem, &steering);
         footprint.check()?;
         let states = state_space(problem);
-        let enabling = Base::new(problem, &states, &steering, progress)?.enabling;
+        let mut enabling = Base::new(problem, &states, &steering, progress)?.enabling;
+        let warnings = warnings(problem, &enabling);
         let same = guarantee.event == Event::of(problem)
             && model.num_states() == states.len()
             && model.rows().len() == states.memories().len() * enabling.targets.len()
-            && *model.choices() == choices(problem, &states, &enabling);
+            && *model.choices() == choices(problem, &states, &mut enabling);
         if !same {
             return Err(AbstractionError::Foreign);
         }
@@ -195,7 +197,7 @@ impl Abstraction {
         Ok(Self {
             property: task_property(problem),
             state_of_cell: state_of_cell(problem.grid(), &states),
-            warnings: warnings(problem, &enabling),
+            warnings,
             states,
             model,
             targets: enabling.targets,
@@ -250,28 +252,33 @@ fn state_of_cell(grid: &Grid, states: &StateSpace) -> Vec<StateId> {
     (0..grid.num_cells()).map(|cell| states.at_start(CellId(cell))).collect()
 }
 
-fn choices(problem: &Problem, states: &StateSpace, enabling: &Enabling) -> Choices {
-    let mut builder = ChoicesBuilder::with_capacity(states.len());
-    (0..states.heads()).for_each(|_| builder.push_absorbing());
-    for (_, (memory, cell)) in states.pairs() {
-        if problem.labels().kind(cell) != CellKind::Ordinary {
+fn choices(problem: &Problem, states: &StateSpace, enabling: &mut Enabling) -> Choices {
+    let per_state: Vec<Option<u32>> = (0..states.len())
+        .map(|state| match states.cell(StateId::from_index(state)) {
             // The published tool draws goal and unsafe cells without choices.
-            builder.finish_state();
-            continue;
+            Some(cell) if problem.labels().kind(cell) != CellKind::Ordinary => Some(0),
+            Some(cell) => Some(enabling.actions_of(cell).len() as u32).filter(|&own| own > 0),
+            None => None,
+        })
+        .collect();
+    let ranges = match states.memories() {
+        // Most of all that is in memory: it is not copied.
+        [_] if per_state.iter().flatten().map(|&own| own as usize).sum::<usize>()
+            == enabling.num_ranges() =>
+        {
+            enabling.take_actions()
         }
-        let own = enabling.actions_of(cell);
-        if own.is_empty() {
-            builder.push_absorbing();
-        } else {
-            let first_row = states.layer(memory) * enabling.targets.len();
-            let shifted = |row: RowId| RowId::from_index(first_row + row.index());
-            own.iter().for_each(|range| {
-                builder.push_range(RowRange { first: shifted(range.first), last: shifted(range.last) });
-            });
-            builder.finish_state();
+        _ => {
+            let of_pair = |(_, (memory, cell)): (StateId, (Memory, CellId))| {
+                let first_row = states.layer(memory) * enabling.targets.len();
+                let shifted = move |row: RowId| RowId::from_index(first_row + row.index());
+                let own = enabling.actions_of(cell).iter();
+                own.map(move |range| RowRange { first: shifted(range.first), last: shifted(range.last) })
+            };
+            states.pairs().flat_map(of_pair).collect()
         }
-    }
-    builder.finish()
+    };
+    Choices::of_ranges(ranges, per_state.into_iter())
 }
 
 /// Whether a state is an ordinary cell with nothing enabled.

@@ -52,8 +52,7 @@ pub enum CostError {
     },
     /// A step of the system is several of the model.
     #[error(
-        "/costs/{name}/discount: found a model with {micro_steps} steps for each of the system; expected one, to discount by\n  \
-         Use --encoding flat, and regions whose faces are faces of cells."
+        "/costs/{name}/discount: found a model with {micro_steps} steps for each of the system; expected one, to discount by"
     )]
     MicroSteps {
         /// The cost.

@@ -1,9 +1,10 @@
 //! Which actions are enabled in which cells: a half-space test, scanned in lines.
 
 use super::Targets;
+use super::scan::Scan;
 use crate::partition::{CellId, Grid};
 use crate::system::SteeringConstraint;
-use imdp::model::{RowId, RowRange};
+use imdp::model::RowRange;
 use imdp::progress::Progress;
 use rayon::prelude::*;
 
@@ -18,6 +19,9 @@ pub struct EnabledActions {
 
 /// Cells per parallel task: a few milliseconds of work in two dimensions.
 const CELLS_PER_TASK: usize = 256;
+
+/// Tasks whose results are put together at once.
+const TASKS: usize = 128;
 
 /// The actions enabled in each of `cells`.
 ///
@@ -53,191 +57,39 @@ pub(super) fn enabled_around(
     let half_widths: Vec<f64> =
         grid.axes().iter().map(|axis| 0.5 * imdp::numeric::to_f64_up(axis.width())).collect();
     let scan = Scan::new(targets, constraints);
-    let parts: Vec<EnabledActions> = cells
-        .par_chunks(CELLS_PER_TASK)
-        .map(|chunk| {
-            let mut found = EnabledActions::default();
-            let mut slack = vec![0.0; constraints.len()];
-            for &cell in chunk {
-                for (slack, constraint) in slack.iter_mut().zip(constraints) {
-                    *slack = constraint.bound;
-                    for (j, gamma) in constraint.state.iter().enumerate() {
-                        let center = centers[j][grid.coordinate(cell, j) as usize];
-                        *slack -= gamma * center + gamma.abs() * half_widths[j];
-                    }
+    let of_task = |chunk: &[CellId]| {
+        let mut found = EnabledActions::default();
+        let (mut slack, mut levels) = (vec![0.0; constraints.len()], scan.levels());
+        for &cell in chunk {
+            for (slack, constraint) in slack.iter_mut().zip(constraints) {
+                *slack = constraint.bound;
+                for (j, gamma) in constraint.state.iter().enumerate() {
+                    let center = centers[j][grid.coordinate(cell, j) as usize];
+                    *slack -= gamma * center + gamma.abs() * half_widths[j];
                 }
-                let before = found.ranges.len();
-                scan.run(targets, &slack, &mut found.ranges);
-                found.ranges_per_cell.push((found.ranges.len() - before) as u32);
             }
-            progress.advance(chunk.len() as u64);
-            found
-        })
-        .collect();
-    EnabledActions::concatenated(parts)
+            let before = found.ranges.len();
+            scan.run(targets, &slack, &mut levels, &mut found.ranges);
+            found.ranges_per_cell.push((found.ranges.len() - before) as u32);
+        }
+        progress.advance(chunk.len() as u64);
+        found
+    };
+    // Not all tasks at once: what they found stands only once in memory.
+    let mut all = EnabledActions::default();
+    for chunks in cells.chunks(CELLS_PER_TASK * TASKS) {
+        let parts: Vec<EnabledActions> = chunks.par_chunks(CELLS_PER_TASK).map(of_task).collect();
+        parts.into_iter().for_each(|part| all.append(part));
+    }
+    all.ranges.shrink_to_fit();
+    all
 }
 
 impl EnabledActions {
-    /// The actions of the cells of all `parts`, in order.
-    pub(super) fn concatenated(parts: Vec<Self>) -> Self {
-        let mut all = Self::default();
-        all.ranges.reserve_exact(parts.iter().map(|part| part.ranges.len()).sum());
-        all.ranges_per_cell.reserve_exact(parts.iter().map(|part| part.ranges_per_cell.len()).sum());
-        for part in parts {
-            all.ranges_per_cell.extend(part.ranges_per_cell);
-            all.ranges.extend(part.ranges);
-        }
-        all
-    }
-}
-
-/// The scan over target points, prepared for one set of constraints.
-struct Scan<'a> {
-    constraints: &'a [SteeringConstraint],
-    /// Per dimension `k` and constraint, the least that dimensions after `k` can contribute to `α·d`,
-    least_after: Vec<Vec<f64>>,
-    /// the most,
-    most_after: Vec<Vec<f64>>,
-    /// and a bound on `|α·d|` over dimensions from `k` on.
-    magnitudes: Vec<Vec<f64>>,
-}
-
-impl<'a> Scan<'a> {
-    fn new(targets: &Targets, constraints: &'a [SteeringConstraint]) -> Self {
-        let axes = targets.axes().unwrap_or_default();
-        let zero = vec![vec![0.0; constraints.len()]; axes.len()];
-        let mut scan =
-            Self { constraints, least_after: zero.clone(), most_after: zero.clone(), magnitudes: zero };
-        for k in (0..axes.len()).rev() {
-            let ends = [axes[k][0], axes[k][axes[k].len() - 1]];
-            for (i, constraint) in constraints.iter().enumerate() {
-                let [a, b] = ends.map(|x| constraint.target[k] * x);
-                let after = scan.magnitudes.get(k + 1).map_or(0.0, |after| after[i]);
-                scan.magnitudes[k][i] = after + a.abs().max(b.abs());
-                if k > 0 {
-                    scan.least_after[k - 1][i] = scan.least_after[k][i] + a.min(b);
-                    scan.most_after[k - 1][i] = scan.most_after[k][i] + a.max(b);
-                }
-            }
-        }
-        scan
-    }
-
-    fn run(&self, targets: &Targets, slack: &[f64], ranges: &mut Vec<RowRange>) {
-        match targets.axes() {
-            Some(axes) => self.lattice(axes, 0, 0, slack, &mut Found { start: ranges.len(), ranges }),
-            None => self.list(targets, slack, &mut Found { start: ranges.len(), ranges }),
-        }
-    }
-
-    /// Fixes the coordinate of dimension `k`; `slack` is what the earlier dimensions have left.
-    fn lattice(&self, axes: &[Vec<f64>], k: usize, base: usize, slack: &[f64], found: &mut Found<'_>) {
-        let axis = &axes[k];
-        let least = |i: usize| slack[i] - self.least_after[k][i];
-        let Some((first, last)) = self.feasible(axis, k, least) else { return };
-        let base = base * axis.len();
-        if k + 1 == axes.len() {
-            found.push(base + first, base + last);
-            return;
-        }
-        // Where there is room for whatever comes after, with more than rounding to spare, it need not be looked at.
-        let spare = 16.0 * (axes.len() + 1) as f64 * f64::EPSILON;
-        let most =
-            |i: usize| slack[i] - self.most_after[k][i] - spare * (slack[i].abs() + self.magnitudes[k][i]);
-        let whole = self.feasible(axis, k, most);
-        let behind: usize = axes[k + 1..].iter().map(Vec::len).product();
-        let mut rest = vec![0.0; slack.len()];
-        for (i, &x) in axis.iter().enumerate().take(last + 1).skip(first) {
-            if let Some((first, last)) = whole.filter(|&(first, last)| first <= i && i <= last) {
-                if i == first {
-                    found.push((base + first) * behind, (base + last + 1) * behind - 1);
-                }
-                continue;
-            }
-            for ((rest, slack), constraint) in rest.iter_mut().zip(slack).zip(self.constraints) {
-                *rest = slack - constraint.target[k] * x;
-            }
-            self.lattice(axes, k + 1, base + i, &rest, found);
-        }
-    }
-
-    /// The indices along dimension `k` for which there is room in all constraints, as an inclusive range.
-    fn feasible(&self, axis: &[f64], k: usize, room: impl Fn(usize) -> f64) -> Option<(usize, usize)> {
-        let (mut first, mut last) = (0usize, axis.len() - 1);
-        let spacing = if axis.len() > 1 { (axis[last] - axis[0]) / last as f64 } else { 1.0 };
-        for (i, constraint) in self.constraints.iter().enumerate() {
-            let alpha = constraint.target[k];
-            let room = room(i);
-            // Monotone in x even in floating point, so the feasible indices are a range.
-            let fits = |index: usize| alpha * axis[index] <= room;
-            // No number, or less than any: a sum that overflowed decides for nobody.
-            if room.is_nan() || room == f64::NEG_INFINITY {
-                return None;
-            }
-            if alpha == 0.0 {
-                if room < 0.0 {
-                    return None;
-                }
-                continue;
-            }
-            let guess = ((room / alpha - axis[0]) / spacing).clamp(first as f64, last as f64) as usize;
-            if alpha > 0.0 {
-                let mut end = guess;
-                while end < last && fits(end + 1) {
-                    end += 1;
-                }
-                while !fits(end) {
-                    if end == first {
-                        return None;
-                    }
-                    end -= 1;
-                }
-                last = end;
-            } else {
-                let mut start = guess;
-                while start > first && fits(start - 1) {
-                    start -= 1;
-                }
-                while !fits(start) {
-                    if start == last {
-                        return None;
-                    }
-                    start += 1;
-                }
-                first = start;
-            }
-        }
-        Some((first, last))
-    }
-
-    fn list(&self, targets: &Targets, slack: &[f64], found: &mut Found<'_>) {
-        let mut point = vec![0.0; targets.dimension()];
-        for target in 0..targets.len() {
-            targets.point(target, &mut point);
-            let enabled = self.constraints.iter().zip(slack).all(|(constraint, &slack)| {
-                constraint.target.iter().zip(&point).fold(slack, |rest, (alpha, x)| rest - alpha * x) >= 0.0
-            });
-            if enabled {
-                found.push(target, target);
-            }
-        }
-    }
-}
-
-/// The ranges of one cell, behind those of others.
-struct Found<'a> {
-    start: usize,
-    ranges: &'a mut Vec<RowRange>,
-}
-
-impl Found<'_> {
-    /// Adds the rows of a range of targets, merged with what they continue.
-    fn push(&mut self, first: usize, last: usize) {
-        let (first, last) = (RowId::from_index(first), RowId::from_index(last));
-        match self.ranges[self.start..].last_mut() {
-            Some(previous) if previous.last.next() == first => previous.last = last,
-            _ => self.ranges.push(RowRange { first, last }),
-        }
+    /// Adds the actions of further cells.
+    pub(super) fn append(&mut self, part: Self) {
+        self.ranges_per_cell.extend(part.ranges_per_cell);
+        self.ranges.extend(part.ranges);
     }
 }
 

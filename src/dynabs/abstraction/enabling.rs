@@ -4,7 +4,7 @@ use super::AbstractionError;
 use super::between::Between;
 use super::enabled::EnabledActions;
 use super::hazards::Hazards;
-use super::rooms::Rooms;
+use super::rooms::{Needed, Rooms};
 use super::steering::Steering;
 use super::targets::Targets;
 use super::windows::Windows;
@@ -56,8 +56,9 @@ impl Enabling {
         if let Some((hazards, windows, row_length)) = hazards {
             progress.start("steps in between", ordinary.len() as u64);
             let between = Between::new(problem, hazards, steering, windows);
-            let clear = between.filter(&ordinary, &actions, progress);
-            (rooms, targets, actions) = Rooms::new(clear, &targets, row_length);
+            let mut needed = Needed::new(&targets, row_length);
+            actions = between.filter(&ordinary, &actions, &mut needed, progress);
+            (rooms, targets, actions) = Rooms::new(actions, needed, &targets);
             progress.finish();
             if is_empty(&actions) {
                 return Err(AbstractionError::NothingClear { group_steps: problem.group_steps() });
@@ -74,6 +75,17 @@ impl Enabling {
     /// The enabled actions of a cell, ascending; none if it is not ordinary.
     pub(super) fn actions_of(&self, cell: CellId) -> &[RowRange] {
         &self.actions.ranges[self.starts[cell.index()]..self.starts[cell.index() + 1]]
+    }
+
+    /// How many ranges of actions all cells have together.
+    pub(super) fn num_ranges(&self) -> usize {
+        self.actions.ranges.len()
+    }
+
+    /// All of them, cell after cell: none are left.
+    pub(super) fn take_actions(&mut self) -> Vec<RowRange> {
+        self.starts.fill(0);
+        std::mem::take(&mut self.actions.ranges)
     }
 
     /// Whether the law has no action in an ordinary cell: whatever the samples.

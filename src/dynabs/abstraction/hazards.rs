@@ -61,28 +61,43 @@ impl Hazards {
         !is_safe
     }
 
-    /// The room, within another, in which nothing unsafe is met; none if there is none.
+    /// The room, within another, in which nothing unsafe is met; none if there is none without limits below a rung, `least`.
     ///
     /// `face` says of a side and a rung how far the state is on that side if the noise stays within the rung. Every unsafe
     /// region is kept clear of on the side on which most noise may be.
-    pub(super) fn room(&self, within: Room, face: impl Fn(usize, usize) -> f64) -> Option<Room> {
+    pub(super) fn room(
+        &self,
+        within: Room,
+        least: usize,
+        face: impl Fn(usize, usize) -> f64,
+    ) -> Option<Room> {
         let mut room = within;
         let farthest = |side: usize, is_clear: &dyn Fn(f64) -> bool| {
-            (0..RUNGS.len()).rev().find(|&rung| is_clear(face(side, rung)))
+            (least..RUNGS.len()).rev().find(|&rung| is_clear(face(side, rung)))
         };
         for sides in &self.boxes {
-            let options = sides.iter().enumerate().flat_map(|(j, own)| {
-                [
-                    farthest(2 * j, &|x| x >= own.upper).map(|rung| (rung, 2 * j)),
-                    farthest(2 * j + 1, &|x| x < own.lower).map(|rung| (rung, 2 * j + 1)),
-                ]
-            });
-            let options: Vec<(usize, usize)> = options.flatten().collect();
-            if options.iter().any(|&(rung, side)| room.limit(side).is_some_and(|limit| limit <= rung)) {
-                continue;
+            // The last of those with most noise, as a rung and a side.
+            let mut best: Option<(usize, usize)> = None;
+            let mut is_met = true;
+            for side in 0..2 * sides.len() {
+                let own = sides[side / 2];
+                let rung = match side % 2 {
+                    0 => farthest(side, &|x| x >= own.upper),
+                    _ => farthest(side, &|x| x < own.lower),
+                };
+                let Some(rung) = rung else { continue };
+                if room.limit(side).is_some_and(|limit| limit <= rung) {
+                    is_met = false;
+                    break;
+                }
+                if best.is_none_or(|(most, _)| rung >= most) {
+                    best = Some((rung, side));
+                }
             }
-            let &(rung, side) = options.iter().max_by_key(|(rung, _)| *rung)?;
-            room = room.limited(side, rung);
+            if is_met {
+                let (rung, side) = best?;
+                room = room.limited(side, rung);
+            }
         }
         for (j, own) in self.partition.iter().flatten().enumerate() {
             room = room.limited(2 * j, farthest(2 * j, &|x| x >= own.lower)?);

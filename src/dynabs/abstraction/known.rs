@@ -81,8 +81,9 @@ pub(super) fn build(
                 let stencil = stencil(ground, &(0..point.len()).map(along).collect::<Vec<_>>());
                 let RowBuffer { mut entries, mut coordinates } = RowBuffer::default();
                 ground.origin(target, &mut coordinates);
-                let (special, _) = merged(ground, &stencil, &coordinates);
-                rows.push_row(stencil.row(ground, &coordinates, special, &mut entries));
+                let (special, cells) = merged(ground, &stencil, &coordinates);
+                let length = length(special, cells) as usize;
+                rows.push_row(stencil.row(ground, &coordinates, (special, length), &mut entries));
             });
             (rows.into(), 2.0 * grid.dimension() as f64 * NEGLIGIBLE)
         }
@@ -166,7 +167,12 @@ fn chosen(ground: &Ground, stencil: &Stencil, origin: &[i32], special: &[BoxCoun
         true => (Special { first: stencil.usual(), reached: None }, stencil.runs().len() as u32),
         false => merged(ground, stencil, origin),
     };
-    Chosen { stencil: 0, special, length: 1 + u32::from(special.reached.is_some()) + cells }
+    Chosen { stencil: 0, special, length: length(special, cells) }
+}
+
+/// How many entries a row with so many cells has.
+fn length(special: Special, cells: u32) -> u32 {
+    1 + u32::from(special.reached.is_some()) + cells
 }
 
 /// What the special states of the row at `origin` get, and how many cells it lists.

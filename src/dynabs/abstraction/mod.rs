@@ -27,6 +27,7 @@ mod reference;
 mod room;
 mod rooms;
 mod row_tasks;
+mod scan;
 mod states;
 mod steering;
 mod stencil;

@@ -62,7 +62,8 @@ pub(super) fn build(
             let RowBuffer { mut entries, mut coordinates } = RowBuffer::default();
             ground.origin(target, &mut coordinates);
             let stencil = of_target(target).stencil(&ground, special(target).first, &of_cells);
-            rows.push_row(stencil.row(&ground, &coordinates, special(target), &mut entries));
+            let of_row = (special(target), 1 + inside[target].1 as usize);
+            rows.push_row(stencil.row(&ground, &coordinates, of_row, &mut entries));
         })
         .into());
     };

@@ -3,22 +3,25 @@
 use super::Reason;
 use crate::abstraction::Abstraction;
 use crate::problem::Problem;
-use imdp::model::{IntervalMdp, require_memory};
+use imdp::model::IntervalMdp;
 use imdp::solver::{Answer, SolverOptions};
 
 /// A bound this near to that of all samples in the world is not the samples' fault.
 const NEAR: f64 = 0.01;
 /// Intervals are narrowed by these factors, to find the first that is enough.
 const FACTORS: [f64; 6] = [0.7, 0.5, 0.35, 0.25, 0.1, 0.05];
-/// Bytes of an entry of a stored row.
-const ENTRY: u64 = 24;
+/// Narrowed models are solved again, with rows that are stored: with more entries all together, that takes longer and more memory
+/// than the model itself, whose rows may be shifts of one another.
+const MOST_ENTRIES: usize = 1 << 22;
 
 /// The value with probabilities in the middle of their intervals, and the number of samples that would bring the bound
 /// near to it; nothing if there are none, if the model is too large to be narrowed, or if the value is the bound.
 pub(super) fn weigh(problem: &Problem, abstraction: &Abstraction, answer: &Answer) -> Option<Reason> {
     let samples = problem.noise().samples()?.samples.len();
     let model = &abstraction.model;
-    require_memory("rows with narrower intervals", model.rows().num_entries() as u64 * ENTRY).ok()?;
+    if model.rows().num_entries() > MOST_ENTRIES {
+        return None;
+    }
     let value = |model: &IntervalMdp| {
         let options = SolverOptions { epsilon: 1e-4, ..SolverOptions::default() };
         Some(Answer::new(model, &abstraction.property, &options).ok()?.lower)

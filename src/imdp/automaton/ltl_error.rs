@@ -4,7 +4,7 @@
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LtlError {
     /// There are too many temporal operators.
-    #[error("the formula has {found} different subformulas with F, G, U, W or R; expected at most {limit}")]
+    #[error("found {found} different subformulas with F, G, U, W or R; expected at most {limit}")]
     Operators {
         /// How many there are.
         found: usize,
@@ -12,7 +12,7 @@ pub enum LtlError {
         limit: usize,
     },
     /// There are too many propositions.
-    #[error("the formula has {found} different state formulas; expected at most {limit}")]
+    #[error("found {found} different state formulas in a formula; expected at most {limit}")]
     Propositions {
         /// How many there are.
         found: usize,
@@ -21,8 +21,8 @@ pub enum LtlError {
     },
     /// A bound on steps is unfolded, and would take too long.
     #[error(
-        "found a bound of {found} steps inside of a larger path formula; expected at most {limit} (alone, as in P=? [ F<=1000 \"a\" ], \
-         any number will do)"
+        "found a bound of {found} steps inside of a larger path formula; expected at most {limit}; alone, as in P=? [ F<=1000 \"a\" ], \
+         any number will do"
     )]
     Steps {
         /// The steps.
@@ -32,10 +32,11 @@ pub enum LtlError {
     },
     /// No prefix of a word decides the formula, by its form.
     #[error(
-        "the formula is neither safe nor co-safe: something has to hold for ever or again and again, and something else to come"
+        "found a formula in which something has to hold for ever or again and again, and something else to come; expected one \
+         that is safe or co-safe"
     )]
     Undecided,
     /// What remains of a formula becomes too large.
-    #[error("the automaton of the formula becomes too large; simplify the formula")]
+    #[error("found a formula whose automaton becomes too large; expected a simpler one")]
     Size,
 }

@@ -106,7 +106,7 @@ fn files_that_are_no_deterministic_automata_are_refused() {
         ("Start: 0", "Start: 0\nStart: 0", "several initial states"),
         ("Start: 0\n", "", "found no `Start:` in the header"),
         ("Start: 0", "Start: 0&0", "a conjunction of states"),
-        ("[!0] 0", "[t] 0", "line 13: state 0 has two edges for the same letter"),
+        ("[!0] 0", "[t] 0", "line 13: found two edges of state 0 for the same letter"),
         ("[!0] 0", "[!0] 1", "found the state 1; expected one below 1"),
         ("[!0] 0", "[!1] 0", "line 12: found the proposition 1; expected one below 1"),
         ("[!0] 0", "[!0] 0 {1}", "found the acceptance set 1; expected one below 1"),
@@ -117,7 +117,7 @@ fn files_that_are_no_deterministic_automata_are_refused() {
         ("acc-name: Buchi", "Strange: 1", "found `Strange:`; expected"),
         ("Inf(0)", "Inf(1)", "found the acceptance set 1; expected one below 1"),
         ("Inf(0)", "Many(0)", "expected Fin, Inf, t or f"),
-        ("[!0] 0\n", "[!0] 0\nState: 0\n", "state 0 is described twice"),
+        ("[!0] 0\n", "[!0] 0\nState: 0\n", "found state 0 for the second time"),
         ("--END--", "", "found the end of the file; expected `State:` or --END--"),
         ("name: \"G F a\"", "/* never ends", "the end of the comment"),
     ] {

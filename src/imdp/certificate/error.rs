@@ -10,7 +10,7 @@ pub enum CertificateError {
     #[error("cannot read the certificate: {0}")]
     Io(#[from] std::io::Error),
     /// The first line is another one.
-    #[error("this is not a certificate: found `{found}` in the first line; expected `{expected}`")]
+    #[error("found `{found}` in the first line, so this is not a certificate; expected `{expected}`")]
     NotACertificate {
         /// The first line, or its beginning.
         found: String,
@@ -18,10 +18,15 @@ pub enum CertificateError {
         expected: String,
     },
     /// The last line is missing or incomplete.
-    #[error("the certificate is truncated: found no line `end <sha256>` at its end; copy it anew")]
+    #[error(
+        "found a certificate that is truncated, without a line `end <sha256>` at its end; expected all of it; copy it anew"
+    )]
     Truncated,
     /// Something was changed.
-    #[error("the certificate is damaged: the SHA-256 in its last line is not that of what stands before it")]
+    #[error(
+        "found a certificate that is damaged: the SHA-256 in its last line is not that of what stands before it; expected it as \
+         it was written; copy it anew"
+    )]
     Digest,
     /// A line is not what it should be.
     #[error("line {line} of the certificate: found `{found}`; expected {expected}")]

@@ -46,7 +46,8 @@ impl<'a> Checker<'a> {
         resolution: Resolution,
     ) -> Result<ValueBounds, EvaluationError> {
         if first > 0 {
-            let problem = "there are no proofs about events that begin after some steps".to_owned();
+            let problem =
+                "found an event that begins after some steps; expected one that has proofs".to_owned();
             return Err(Rejection::Expression { problem }.into());
         }
         let kind = match *event {
@@ -88,7 +89,9 @@ impl<'a> Checker<'a> {
     }
 
     fn next(&mut self) -> Result<&'a Evidence, Rejection> {
-        let missing = || Rejection::Expression { problem: "a proof is missing".to_owned() };
+        let missing = || Rejection::Expression {
+            problem: "found fewer proofs than operators; expected one for each".to_owned(),
+        };
         self.proofs.next().ok_or_else(missing)
     }
 

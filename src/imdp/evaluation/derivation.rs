@@ -26,7 +26,9 @@ pub fn check_derivation(
     let problem = |problem: String| Rejection::Expression { problem };
     let inquiry = parse_inquiry(&derivation.expression, &Definitions::default());
     let Inquiry::Compound(compound) = inquiry.map_err(|error| problem(error.to_string()))? else {
-        return Err(problem("the expression is a property, which has certificates of its own".to_owned()));
+        return Err(problem(
+            "found a property, which has certificates of its own; expected an expression".to_owned(),
+        ));
     };
     let mut evaluator = Evaluator::new(model, derivation.nature, SolverOptions::default());
     evaluator.checker = Some(Checker::new(&derivation.proofs));
@@ -36,7 +38,8 @@ pub fn check_derivation(
     })?;
     if evaluator.is_unproved {
         return Err(problem(
-            "an automaton of a file has no proof: the file may be another by now".to_owned(),
+            "found an automaton of a file, which may be another by now; expected only what has a proof"
+                .to_owned(),
         ));
     }
     let (steps, rows, left) = match &evaluator.checker {
@@ -44,7 +47,7 @@ pub fn check_derivation(
         None => (0, 0, 0),
     };
     if left > 0 {
-        return Err(problem(format!("{left} proofs are left over")));
+        return Err(problem(format!("found {left} proofs more than operators; expected one for each")));
     }
     let proved = values.claim(model);
     let (lower, upper, verdict) = claimed(derivation.claim, proved, model)?;

@@ -42,12 +42,14 @@ pub enum EvaluationError {
     #[error(transparent)]
     Memory(#[from] crate::model::MemoryError),
     /// The product with an automaton is no model, which should not happen.
-    #[error("the product of model and automaton is no interval MDP: {0}; please report this")]
+    #[error(
+        "found a product of model and automaton that is no interval MDP: {0}; expected one; please report this"
+    )]
     Product(String),
     /// The model has no such reward structure.
     #[error(
-        "the model has no reward structure {found}; its structures: {known} (.srew and .trew files beside a .tra file are read; \
-         `prism … -exportmodel m.tra,sta,lab,srew,trew` writes them)"
+        "found no reward structure {found} in the model; expected one of its structures: {known}; .srew and .trew files beside a \
+         .tra file are read, as `prism … -exportmodel m.tra,sta,lab,srew,trew` writes them"
     )]
     UnknownRewards {
         /// What was asked for.
@@ -56,7 +58,7 @@ pub enum EvaluationError {
         known: String,
     },
     /// A number has no value in some state.
-    #[error("the value of an expression in state {state} is not defined: {problem}")]
+    #[error("found {problem} in state {state}; expected an expression with a value in every state")]
     Undefined {
         /// The state.
         state: usize,
@@ -64,20 +66,21 @@ pub enum EvaluationError {
         problem: &'static str,
     },
     /// A filter for one state has none or several.
-    #[error("filter(state, …) needs exactly one state, found {found}")]
+    #[error("found {found} states for filter(state, …); expected exactly one")]
     NotOneState {
         /// How many states satisfy the filter's condition.
         found: usize,
     },
     /// A filter has no states at all.
-    #[error("the condition of a filter holds in no state")]
+    #[error("found a filter whose condition holds in no state; expected one that holds somewhere")]
     NoState,
     /// A proof proves something else, or nothing.
     #[error(transparent)]
     Proof(#[from] crate::verify::Rejection),
     /// A formula inside of another is not decided in some state.
     #[error(
-        "a formula inside of the path formula is not decided in state {state}; bounds that are closer together may help"
+        "found a formula inside of a path formula that is not decided in state {state}; expected it to hold or to fail there; \
+         bounds that are closer together may help"
     )]
     Undecided {
         /// The state.

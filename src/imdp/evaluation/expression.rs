@@ -299,7 +299,7 @@ impl<'a> Evaluator<'a> {
                 let value = values.and_then(|values| call(function, &values));
                 value.ok_or(EvaluationError::Undefined {
                     state,
-                    problem: "mod and pow want whole numbers, mod a positive one",
+                    problem: "mod or pow of numbers that are not whole, or mod by one that is not positive",
                 })
             };
             return (0..states).map(value).collect::<Result<_, _>>().map(Numbers::Exact);

@@ -55,6 +55,23 @@ pub struct ChoicesBuilder {
 }
 
 impl Choices {
+    /// The choices of states whose ranges stand one after the other, ascending and with a gap between those of one state; per
+    /// state how many are its own, none if its only choice is to stay.
+    pub fn of_ranges(ranges: Vec<RowRange>, per_state: impl ExactSizeIterator<Item = Option<u32>>) -> Self {
+        let mut starts = Vec::with_capacity(per_state.len() + 1);
+        let mut absorbing = StateSet::with_capacity(per_state.len());
+        let mut end = 0;
+        starts.push(end);
+        for (state, own) in per_state.enumerate() {
+            absorbing.set(state, own.is_none());
+            end += own.unwrap_or(0) as usize;
+            starts.push(end);
+        }
+        let of_ranges: u64 = ranges.iter().map(|range| range.len() as u64).sum();
+        let num_choices = of_ranges + absorbing.count_ones(..) as u64;
+        Self { starts: starts.into(), ranges: Arc::new(ranges), absorbing, num_choices }
+    }
+
     /// The number of states.
     pub fn num_states(&self) -> usize {
         self.starts.len() - 1

@@ -55,7 +55,7 @@ impl std::fmt::Display for MemoryLimit {
             Self::Machine => "the machine's",
             Self::ControlGroup => "the control group's limit",
             Self::Process => "the limit of this process, see ulimit",
-            Self::Given => "the limit given by --memory",
+            Self::Given => "the limit that was given",
         })
     }
 }

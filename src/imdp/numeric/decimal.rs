@@ -1,6 +1,6 @@
 //! Short decimals that bound a number from one side.
 
-use super::{Rational, from_decimal, from_dyadic};
+use super::{from_decimal, from_dyadic};
 
 /// The shortest text that reads back as the double `x`, as every writer of this crate prints numbers.
 ///
@@ -17,8 +17,11 @@ pub fn shortest_decimal(x: f64) -> String {
 /// so a file that prints it and a solver that computes with it are sound together. A double that is such
 /// a short decimal exactly is returned unchanged. Needs `x` finite and `1 ≤ digits ≤ 15`.
 pub fn round_decimal_down(x: f64, digits: usize) -> f64 {
-    let rounded: f64 = parse(&format!("{x:.*e}", digits - 1));
-    if reads_at_most(rounded, x) { rounded } else { step_down(rounded, digits) }
+    let text = format!("{x:.*e}", digits - 1);
+    let rounded = parse(&text);
+    // What reads as a smaller double is smaller: decimals that read alike end where the next double is not far.
+    let is_below = rounded < x || rounded == x && from_decimal(rounded) <= from_dyadic(x);
+    if is_below { rounded } else { step_down(&text, digits) }
 }
 
 /// The smallest decimal with at most `digits` significant digits that bounds `x` from above.
@@ -28,19 +31,14 @@ pub fn round_decimal_up(x: f64, digits: usize) -> f64 {
     -round_decimal_down(-x, digits)
 }
 
-/// Whether the double `rounded` and its shortest decimal are both at most `x`.
-fn reads_at_most(rounded: f64, x: f64) -> bool {
-    rounded <= x && from_decimal(rounded) <= from_dyadic(x)
-}
-
-/// The next smaller decimal with the same number of significant digits.
-fn step_down(x: f64, digits: usize) -> f64 {
-    let text = format!("{x:.*e}", digits - 1);
-    let exponent: i32 =
-        text.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or_default();
-    let unit = from_decimal(parse(&format!("1e{}", exponent - (digits as i32 - 1))));
-    let lower: Option<Rational> = from_decimal(x).zip(unit).map(|(x, unit)| x - unit);
-    lower.map_or(x.next_down(), |lower| super::to_f64(&lower))
+/// The next smaller decimal with the same number of significant digits, after one in scientific notation.
+fn step_down(text: &str, digits: usize) -> f64 {
+    let next = text.split_once('e').and_then(|(mantissa, exponent)| {
+        let mantissa: i64 = mantissa.replace('.', "").parse().ok()?;
+        let exponent: i32 = exponent.parse().ok()?;
+        Some(parse(&format!("{}e{}", mantissa - 1, exponent - (digits as i32 - 1))))
+    });
+    next.unwrap_or(f64::NAN)
 }
 
 fn parse(text: &str) -> f64 {

@@ -8,8 +8,8 @@ use super::{Optimum, Resolution};
 pub enum PropertyError {
     /// The direction of nature is missing.
     #[error(
-        "{found} of an interval MDP does not say what nature does: PRISM reads it as {prism}, Storm as {storm}; \
-         write Pmaxmin, Pmaxmax, Pminmin or Pminmax (policy first, then nature)"
+        "found {found} of an interval MDP, which does not say what nature does (PRISM reads it as {prism}, Storm as {storm}); \
+         expected Pmaxmin, Pmaxmax, Pminmin or Pminmax (policy first, then nature)"
     )]
     PlainOptimum {
         /// What was written.
@@ -21,15 +21,15 @@ pub enum PropertyError {
     },
     /// Neither direction is given, but there is something to choose.
     #[error(
-        "P=? and R=? do not say who maximises and who minimises; write Pmaxmin, Pmaxmax, Pminmin or Pminmax (interval \
-         MDP), or Pmin or Pmax (interval DTMC)"
+        "found P=? or R=?, which do not say who maximises and who minimises; expected Pmaxmin, Pmaxmax, Pminmin or Pminmax \
+         (interval MDP), or Pmin or Pmax (interval DTMC)"
     )]
     NoDirection,
     /// A weak until with a first step.
-    #[error("W with a first step is not supported; write F, G or U with one, or W without")]
+    #[error("found W with a first step, which is not supported; expected F, G or U with one, or W without")]
     LateWeakUntil,
     /// The direction of a policy is given, but there is none.
-    #[error("{found} needs a policy, an interval DTMC has none: write {instead}")]
+    #[error("found {found}, which needs a policy, but an interval DTMC has none; expected {instead}")]
     NoPolicy {
         /// What was written.
         found: Resolution,
@@ -37,7 +37,7 @@ pub enum PropertyError {
         instead: &'static str,
     },
     /// The model has no such label.
-    #[error("the model has no label \"{name}\"{}; its labels: {}", suggestion(.closest), list(.known))]
+    #[error("found no label \"{name}\" in the model; expected one of its labels: {}{}", list(.known), suggestion(.closest))]
     UnknownLabel {
         /// The label that was asked for.
         name: String,
@@ -47,7 +47,7 @@ pub enum PropertyError {
         known: Vec<String>,
     },
     /// The model has no such variable.
-    #[error("the model has no variable {name}{}; its variables: {}", suggestion(.closest), list(.known))]
+    #[error("found no variable {name} in the model; expected one of its variables: {}{}", list(.known), suggestion(.closest))]
     UnknownVariable {
         /// The variable that was asked for.
         name: String,
@@ -57,19 +57,25 @@ pub enum PropertyError {
         known: Vec<String>,
     },
     /// An integer variable stands where a formula must.
-    #[error("{name} is an integer variable and no formula by itself: compare it, as in {name}=1")]
+    #[error(
+        "found the integer variable {name}, which is no formula by itself; expected a comparison, as in {name}=1"
+    )]
     NotBoolean {
         /// The variable.
         name: String,
     },
     /// A Boolean variable stands where an integer must.
-    #[error("{name} is a Boolean variable and no integer: write {name} or !{name} without comparing it")]
+    #[error(
+        "found the Boolean variable {name}, which is no integer; expected {name} or !{name} without a comparison"
+    )]
     NotInteger {
         /// The variable.
         name: String,
     },
     /// An integer expression leaves the range of 64-bit integers.
-    #[error("the value of {expression} in state {state} does not fit into 64 bits")]
+    #[error(
+        "found a value of {expression} in state {state} that does not fit into 64 bits; expected one that does"
+    )]
     Overflow {
         /// The expression.
         expression: String,
@@ -79,7 +85,7 @@ pub enum PropertyError {
 }
 
 fn suggestion(closest: &Option<String>) -> String {
-    closest.as_ref().map(|name| format!(" (did you mean {name}?)")).unwrap_or_default()
+    closest.as_ref().map(|name| format!("; did you mean {name}?")).unwrap_or_default()
 }
 
 /// At most this many names are listed in a message.

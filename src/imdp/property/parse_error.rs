@@ -31,7 +31,7 @@ pub struct TextPosition {
 #[non_exhaustive]
 pub enum ParseErrorKind {
     /// Something else must stand here.
-    #[error("expected {expected}, found {found}")]
+    #[error("found {found}; expected {expected}")]
     Unexpected {
         /// What can stand here.
         expected: String,
@@ -39,7 +39,7 @@ pub enum ParseErrorKind {
         found: String,
     },
     /// PRISM knows this, but it is not supported here.
-    #[error("{what} not supported; {instead}")]
+    #[error("found {what} (not supported); expected {instead}")]
     Unsupported {
         /// What it is called, with its verb.
         what: &'static str,
@@ -47,7 +47,7 @@ pub enum ParseErrorKind {
         instead: &'static str,
     },
     /// The threshold is not a probability.
-    #[error("{error}, found {found}")]
+    #[error("found {found}; expected {error}")]
     Threshold {
         /// What is wrong with it.
         error: ProbabilityError,
@@ -55,27 +55,27 @@ pub enum ParseErrorKind {
         found: String,
     },
     /// A constant is declared, but has no value.
-    #[error("the constant {name} has no value; define it in the file, as in const {name} = VALUE;")]
+    #[error("found the constant {name}, which has no value; expected one, as in const {name} = VALUE;")]
     Undefined {
         /// The constant.
         name: String,
     },
     /// A function has too many or too few arguments.
     #[error(
-        "expected two or more arguments of min and max, two of mod and pow, one of floor, ceil and round, found {found}"
+        "found {found} arguments; expected two or more of min and max, two of mod and pow, one of floor, ceil and round"
     )]
     Arguments {
         /// How many there are.
         found: usize,
     },
     /// The last step comes before the first.
-    #[error("the steps end before they begin, found {found}")]
+    #[error("found {found}, steps that end before they begin; expected the first before the last")]
     EmptyRange {
         /// First and last step.
         found: String,
     },
     /// The bound of an operator is not a number of steps.
-    #[error("a step bound is a whole number from {least} to 2147483647, found {found}")]
+    #[error("found {found}; expected a whole number of steps from {least} to 2147483647")]
     Steps {
         /// 0 for `<=`, 1 for `<`.
         least: u8,
@@ -83,19 +83,21 @@ pub enum ParseErrorKind {
         found: String,
     },
     /// An integer literal is too large for PRISM.
-    #[error("an integer is at most 2147483647, found {found}")]
+    #[error("found {found}; expected an integer of at most 2147483647")]
     Integer {
         /// What was written.
         found: String,
     },
     /// Operators or parentheses are nested too deeply.
-    #[error("nested more than {limit} levels deep; simplify the formula, or give the model a label for it")]
+    #[error(
+        "found more than {limit} levels inside of each other; expected a simpler formula, or a label of the model for it"
+    )]
     TooDeep {
         /// The number of levels allowed.
         limit: usize,
     },
     /// Two properties have the same name.
-    #[error("there is already a property named \"{name}\"; give each its own name")]
+    #[error("found a second property named \"{name}\"; expected a name of its own for each")]
     DuplicateName {
         /// The name.
         name: String,

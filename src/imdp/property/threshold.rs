@@ -22,13 +22,13 @@ pub struct Probability {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ProbabilityError {
     /// The text is not an unsigned decimal.
-    #[error("a threshold is a decimal such as 0.95")]
+    #[error("a decimal such as 0.95")]
     NotDecimal,
     /// The number is negative or above 1.
-    #[error("a probability is between 0 and 1")]
+    #[error("a probability between 0 and 1")]
     Range,
     /// The number has too many digits or too large an exponent.
-    #[error("a threshold has at most {MAX_DIGITS} digits, and an exponent of at most {MAX_DIGITS}")]
+    #[error("a threshold of at most {MAX_DIGITS} digits, with an exponent of at most {MAX_DIGITS}")]
     TooLong,
 }
 

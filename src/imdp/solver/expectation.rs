@@ -33,7 +33,7 @@
 //! - Finally the result lies between the smallest and the largest value of the row (where `u > 0`).
 
 use super::query::Direction;
-use super::threshold::{Scratch, Threshold};
+use super::threshold::{FirstPass, Scratch, Threshold};
 use crate::model::{Row, RowBuffer, RowId, RowSet};
 use crate::numeric::rounding_factor;
 
@@ -57,15 +57,19 @@ pub(super) struct RowBlock {
     critical: Vec<u32>,
     /// `1 − Σ l` of every row.
     slacks: Vec<f64>,
+}
+
+/// Room for the evaluation of one row after the other.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Workspace {
     scratch: Scratch,
     buffer: RowBuffer,
 }
 
 impl RowBlock {
-    pub(super) fn new(all: &RowSet, rows: Vec<RowId>) -> Self {
-        let mut buffer = RowBuffer::default();
-        let slacks = rows.iter().map(|&row| slack(all.row(row, &mut buffer))).collect();
-        Self { critical: vec![0; rows.len()], rows, slacks, scratch: Scratch::default(), buffer }
+    pub(super) fn new(all: &RowSet, rows: Vec<RowId>, Workspace { buffer, .. }: &mut Workspace) -> Self {
+        let slacks = rows.iter().map(|&row| slack(all.row(row, buffer))).collect();
+        Self { critical: vec![0; rows.len()], rows, slacks }
     }
 
     /// The expectations of the rows of the block, in their order; those that are `known` are taken as they are.
@@ -75,8 +79,9 @@ impl RowBlock {
         values: &[f64],
         (nature, side): (Direction, Bound),
         known: impl Fn(RowId) -> Option<f64>,
+        Workspace { scratch, buffer }: &mut Workspace,
     ) -> Vec<f64> {
-        let Self { rows, critical, slacks, scratch, buffer } = self;
+        let Self { rows, critical, slacks } = self;
         let expectations = rows.iter().zip(slacks).zip(critical).map(|((&id, slack), critical)| {
             known(id).unwrap_or_else(|| {
                 expectation((all.row(id, buffer), *slack), values, (critical, scratch), nature, side)
@@ -125,19 +130,23 @@ fn expectation(
     }
     scratch.values.clear();
     scratch.values.extend(row.successors.iter().map(|&s| values[s.index()]));
-    let Overview { lowest, highest, base } = Overview::new(row, &scratch.values);
-    if lowest >= highest {
-        return lowest.min(highest).max(0.0);
-    }
     // `rounding_factor` doubles: this is η = (2m + 8)ε.
     let margin = rounding_factor(row.len() + 4);
     let slack = match side {
         Bound::Lower => (slack - margin).max(0.0),
         Bound::Upper => (slack + margin).max(0.0),
     };
+    let pass = match nature {
+        Direction::Min => FirstPass::new(row, scratch, *critical, |a, b| a < b),
+        Direction::Max => FirstPass::new(row, scratch, *critical, |a, b| a > b),
+    };
+    let FirstPass { lowest, highest, base, ref before } = pass;
+    if lowest >= highest {
+        return lowest.min(highest).max(0.0);
+    }
     let threshold = match nature {
-        Direction::Min => Threshold::find(row, scratch, slack, critical, |a, b| a < b),
-        Direction::Max => Threshold::find(row, scratch, slack, critical, |a, b| a > b),
+        Direction::Min => Threshold::find(row, scratch, slack, (critical, before), |a, b| a < b),
+        Direction::Max => Threshold::find(row, scratch, slack, (critical, before), |a, b| a > b),
     };
     let poured = match (nature, side) {
         (Direction::Min, Bound::Upper) => threshold.poured + threshold.left * highest,
@@ -147,47 +156,6 @@ fn expectation(
     match side {
         Bound::Lower => ((base + poured) * (1.0 - factor) - UNDERFLOW).max(lowest).min(highest),
         Bound::Upper => ((base + poured) * (1.0 + factor) + UNDERFLOW).min(highest).max(lowest),
-    }
-}
-
-/// What is known of a row before anything is poured.
-struct Overview {
-    /// The least value of a successor that can have any mass; the others bound nothing.
-    lowest: f64,
-    /// The greatest one.
-    highest: f64,
-    /// `Σ l V` in four interleaved sums, which the error bound for one sum covers as well.
-    base: f64,
-}
-
-impl Overview {
-    fn new(row: Row<'_>, values: &[f64]) -> Self {
-        // Arrays that stay in registers.
-        let (mut lowest, mut highest, mut sums) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4], [0.0; 4]);
-        let (values, lower, upper) =
-            (values.as_chunks::<4>(), row.lower.as_chunks::<4>(), row.upper.as_chunks::<4>());
-        for ((values, lower), upper) in values.0.iter().zip(lower.0).zip(upper.0) {
-            for lane in 0..4 {
-                let value = values[lane];
-                let (low, high) =
-                    if upper[lane] > 0.0 { (value, value) } else { (f64::INFINITY, f64::NEG_INFINITY) };
-                lowest[lane] = if low < lowest[lane] { low } else { lowest[lane] };
-                highest[lane] = if high > highest[lane] { high } else { highest[lane] };
-                sums[lane] += lower[lane] * value;
-            }
-        }
-        let mut rest = 0.0;
-        for ((&value, &lower), &upper) in values.1.iter().zip(lower.1).zip(upper.1) {
-            if upper > 0.0 {
-                (lowest[0], highest[0]) = (value.min(lowest[0]), value.max(highest[0]));
-            }
-            rest += lower * value;
-        }
-        Self {
-            lowest: lowest.into_iter().fold(f64::INFINITY, f64::min),
-            highest: highest.into_iter().fold(f64::NEG_INFINITY, f64::max),
-            base: (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest,
-        }
     }
 }
 
@@ -237,14 +205,15 @@ mod tests {
             }
             let id = rows.finish_row();
             let rows = RowSet::from(rows);
-            let mut block = RowBlock::new(&rows, vec![id]);
+            let mut workspace = Workspace::default();
+            let mut block = RowBlock::new(&rows, vec![id], &mut workspace);
             let mut buffer = RowBuffer::default();
             for values in rounds {
                 let values: Vec<f64> = values.into_iter().map(|v| f64::from(v) / 11.0).collect();
                 for nature in [Direction::Min, Direction::Max] {
                     let expected = sorted(rows.row(id, &mut buffer), &values, nature);
                     let [low, high] = [Bound::Lower, Bound::Upper]
-                        .map(|side| block.evaluate(&rows, &values, (nature, side), |_| None)[0]);
+                        .map(|side| block.evaluate(&rows, &values, (nature, side), |_| None, &mut workspace)[0]);
                     prop_assert!(low <= expected && expected <= high, "{low} {expected} {high}");
                     prop_assert!(high - low < 1e-12, "{low} {high}");
                 }

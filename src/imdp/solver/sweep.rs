@@ -4,7 +4,7 @@
 //! evaluated once, however many states share it. The results do not depend on the number of threads:
 //! every value is computed from the previous values alone.
 
-use super::expectation::{Bound, RowBlock};
+use super::expectation::{Bound, RowBlock, Workspace};
 use super::query::Players;
 use super::range_optimum::RangeOptimum;
 use crate::model::{IntervalMdp, RowId, StateId};
@@ -22,6 +22,8 @@ pub(super) struct Sweep<'a> {
     players: Players,
     pub states: Vec<StateId>,
     blocks: Vec<RowBlock>,
+    /// Of a single block.
+    workspace: Workspace,
     many_ranges: bool,
 }
 
@@ -34,19 +36,21 @@ impl<'a> Sweep<'a> {
     ) -> Self {
         let mut blocks = vec![];
         let (mut block, mut entries) = (vec![], 0);
+        let mut workspace = Workspace::default();
+        let mut new = |rows| RowBlock::new(model.rows(), rows, &mut workspace);
         for &row in rows {
             block.push(row);
             entries += model.rows().row_len(row);
             if entries >= BLOCK_ENTRIES {
-                blocks.push(RowBlock::new(model.rows(), std::mem::take(&mut block)));
+                blocks.push(new(std::mem::take(&mut block)));
                 entries = 0;
             }
         }
         if !block.is_empty() {
-            blocks.push(RowBlock::new(model.rows(), block));
+            blocks.push(new(block));
         }
         let ranges: usize = states.iter().map(|&s| model.choices().ranges(s).len()).sum();
-        Self { model, players, states, blocks, many_ranges: ranges >= PARALLEL_RANGES }
+        Self { model, players, states, blocks, workspace, many_ranges: ranges >= PARALLEL_RANGES }
     }
 
     /// The rows, in blocks.
@@ -70,10 +74,12 @@ impl<'a> Sweep<'a> {
         let (all, way) = (self.model.rows(), (self.players.nature, side));
         let results: Vec<Vec<f64>> = {
             let known = |row: RowId| (!wanted(row)).then(|| table.values()[row.index()]);
-            let evaluate = |block: &mut RowBlock| block.evaluate(all, values, way, known);
+            let evaluate = |workspace: &mut Workspace, block: &mut RowBlock| {
+                block.evaluate(all, values, way, known, workspace)
+            };
             match &mut self.blocks[..] {
-                [block] => vec![evaluate(block)],
-                blocks => blocks.par_iter_mut().map(evaluate).collect(),
+                [block] => vec![evaluate(&mut self.workspace, block)],
+                blocks => blocks.par_iter_mut().map_init(Workspace::default, evaluate).collect(),
             }
         };
         let weights = table.values_mut();

@@ -219,15 +219,15 @@ impl<'a> Proof<'a> {
         step: Option<u64>,
         mut enter: impl FnMut(&mut Self, usize, &T),
     ) -> Result<(), Rejection> {
-        let rejected = |state, problem| Err(Rejection::State { step, state, what, problem });
+        let rejected = |state, expected| Err(Rejection::State { step, state, what, expected });
         let mut previous = None;
         for (state, item) in list {
             let state = *state;
             if previous.replace(state).is_some_and(|previous| previous >= state) {
-                return rejected(state, "is out of order");
+                return rejected(state, "states in ascending order");
             }
             if !self.task.moving.contains(state.index()) {
-                return rejected(state, "has nothing to choose or does not exist");
+                return rejected(state, "states that have something to choose");
             }
             enter(self, state.index(), item);
         }

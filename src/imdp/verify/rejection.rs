@@ -9,7 +9,7 @@ use crate::model::{MemoryError, RowId, StateId};
 pub enum Rejection {
     /// The model is another one.
     #[error(
-        "another model was solved: the SHA-256 of the .{kind} file is {found}; the certificate says {expected}"
+        "found the SHA-256 {found} of the .{kind} file; expected {expected}, which the certificate says: another model was solved"
     )]
     Model {
         /// Which file.
@@ -20,7 +20,7 @@ pub enum Rejection {
         expected: String,
     },
     /// The number of states is another one.
-    #[error("the model has {found} states; the certificate says {expected}")]
+    #[error("found {found} states in the model; expected {expected}, as many as the certificate says")]
     States {
         /// The model's.
         found: u64,
@@ -34,7 +34,7 @@ pub enum Rejection {
         error: String,
     },
     /// Steps for an unbounded property or the other way round.
-    #[error("the property is {property}, the evidence is for one that is {evidence}")]
+    #[error("found evidence for a property that is {evidence}; expected evidence for one that is {property}")]
     Evidence {
         /// `bounded` or `unbounded`, or what else it is about.
         property: &'static str,
@@ -42,7 +42,7 @@ pub enum Rejection {
         evidence: &'static str,
     },
     /// More steps than the property has.
-    #[error("there is evidence for {found} steps; the property has {expected}")]
+    #[error("found evidence for {found} steps; expected {expected}, as many as the property has")]
     Steps {
         /// The certificate's.
         found: u64,
@@ -50,7 +50,7 @@ pub enum Rejection {
         expected: u64,
     },
     /// A state that does not exist or about which nothing can be claimed, or states out of order.
-    #[error("{}: state {state} in the list of {what} {problem}", place(.step))]
+    #[error("{}: found state {state} in the list of {what}; expected {expected}", place(.step))]
     State {
         /// In which step.
         step: Option<u64>,
@@ -58,19 +58,20 @@ pub enum Rejection {
         state: StateId,
         /// Which list.
         what: &'static str,
-        /// What is wrong.
-        problem: &'static str,
+        /// What stands there if all is well.
+        expected: &'static str,
     },
     /// A row that admits no distribution when its bounds are taken exactly.
     #[error(
-        "row {row} of the model admits no distribution: its bounds are further from sum 1 than rounding explains"
+        "found bounds of row {row} of the model that are further from sum 1 than rounding explains; expected bounds that admit a \
+         distribution"
     )]
     NoDistribution {
         /// The row.
         row: RowId,
     },
     /// The policy must make a bound true but has no such choice.
-    #[error("{}, state {state}: the {side} bound needs a choice of the policy, found none that exists", place(.step))]
+    #[error("{}, state {state}: found no choice of the policy that exists; expected one for the {side} bound", place(.step))]
     NoChoice {
         /// In which step.
         step: Option<u64>,
@@ -81,8 +82,10 @@ pub enum Rejection {
     },
     /// A bound does not follow.
     #[error(
-        "{}, state {state}: the {side} bound {bound:?} does not follow: row {row} has the expectation {expectation:?}",
-        place(.step)
+        "{}, state {state}: found the {side} bound {bound:?}, which does not follow; expected {} {expectation:?}, the expectation of \
+         row {row}",
+        place(.step),
+        side.limit()
     )]
     Bound {
         /// In which step.
@@ -99,7 +102,11 @@ pub enum Rejection {
         expectation: f64,
     },
     /// What a state that stays where it is earns is another number.
-    #[error("{}, state {state}: the {side} bound {bound:?} does not follow: staying there earns {value:?}", place(.step))]
+    #[error(
+        "{}, state {state}: found the {side} bound {bound:?}, which does not follow; expected {} {value:?}, what staying there earns",
+        place(.step),
+        side.limit()
+    )]
     Earned {
         /// In which step.
         step: Option<u64>,
@@ -113,9 +120,7 @@ pub enum Rejection {
         value: f64,
     },
     /// A rank that does not decrease.
-    #[error(
-        "state {state} has rank {rank}: by row {row} it need not meet a rank below {needed}, so it may never be left"
-    )]
+    #[error("state {state}: found rank {rank}; expected {}, or it may never be left", least_rank(*.needed, *.row))]
     Rank {
         /// The state.
         state: StateId,
@@ -128,7 +133,8 @@ pub enum Rejection {
     },
     /// A claim about the initial states goes beyond what was proved.
     #[error(
-        "the {side} bound {claimed:?} is claimed for the initial states; proved is only {proved:?} in state {state}"
+        "found the claim of a {side} bound {claimed:?} for the initial states; expected {} {proved:?}, which is proved of state {state}",
+        side.limit()
     )]
     Claim {
         /// Which bound.
@@ -150,7 +156,8 @@ pub enum Rejection {
     },
     /// A policy cannot make sure that a path formula is satisfied.
     #[error(
-        "state {state} of the product with the automaton counts as one that satisfies the path formula; it need not"
+        "found state {state} of the product with the automaton among those that satisfy the path formula, which it need not; \
+         expected only those that must"
     )]
     Accepting {
         /// The state of the product.
@@ -158,7 +165,8 @@ pub enum Rejection {
     },
     /// Runs may satisfy a path formula elsewhere.
     #[error(
-        "state {state} of the product with the automaton does not count, but the path formula may be satisfied from it"
+        "found state {state} of the product with the automaton missing, though the path formula may be satisfied from it; \
+         expected all such states"
     )]
     Missed {
         /// The state of the product.
@@ -171,7 +179,7 @@ pub enum Rejection {
         problem: String,
     },
     /// The verdict that is claimed is not the one that was proved.
-    #[error("it is claimed that the formula {claimed}; proved is that it {proved}")]
+    #[error("found the claim that the formula {claimed}; expected what is proved, that it {proved}")]
     Verdict {
         /// The claim.
         claimed: String,
@@ -185,4 +193,11 @@ pub enum Rejection {
 
 fn place(step: &Option<u64>) -> String {
     step.map_or_else(|| "inductive bounds".to_owned(), |step| format!("step {step}"))
+}
+
+fn least_rank(needed: u64, row: RowId) -> String {
+    match needed {
+        u64::MAX => format!("a policy without row {row}, which need not meet any rank"),
+        needed => format!("at least {needed}, as row {row} need not meet a smaller one"),
+    }
 }

@@ -144,8 +144,8 @@ impl Proof<'_> {
         for (k, step) in (1..).zip(steps) {
             let exact = step.exact_lower.first().or(step.exact_upper.first());
             if let Some(&(state, _)) = exact {
-                let (what, problem) = ("exact bounds", "has none where rewards are meant");
-                return Err(Rejection::State { step: Some(k), state, what, problem });
+                let (what, expected) = ("exact bounds", "none where rewards are meant");
+                return Err(Rejection::State { step: Some(k), state, what, expected });
             }
             self.take_choices(&step.choices, Some(k))?;
             let (mut next_lower, mut next_upper) = (lower.clone(), upper.clone());
@@ -207,13 +207,13 @@ impl Proof<'_> {
     ) -> Result<(), Rejection> {
         let mut previous = None;
         for &(state, _) in list {
-            let rejected = |problem| Err(Rejection::State { step, state, what, problem });
+            let rejected = |expected| Err(Rejection::State { step, state, what, expected });
             if previous.replace(state).is_some_and(|previous| previous >= state) {
-                return rejected("is out of order");
+                return rejected("states in ascending order");
             }
             let exists = state.index() < self.choices.len();
             if !exists || !(self.staying || self.moving.contains(state.index())) {
-                return rejected("has nothing to choose or does not exist");
+                return rejected("states that have something to choose");
             }
         }
         Ok(())

@@ -31,6 +31,14 @@ impl Side {
         }
     }
 
+    /// How a bound on this side relates to what it bounds, in words.
+    pub(super) fn limit(self) -> &'static str {
+        match self {
+            Self::Lower => "at most",
+            Self::Upper => "at least",
+        }
+    }
+
     /// What bounds every probability.
     pub(super) fn trivial(self) -> f64 {
         match self {

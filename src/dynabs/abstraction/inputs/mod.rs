@@ -131,6 +131,10 @@ impl InputAbstraction {
         let extent: Vec<_> = (0..grid.dimension()).map(|j| tables.extent(j, &occurs[j])).collect();
         let Landed { landing, relaxed, evidence, warnings } =
             landed(problem, &resolution, &extent, &mut footprint)?;
+        let (what, bytes) = ("the arrays that noise moves", landing.bytes_of_moves());
+        if bytes > 0 {
+            footprint.take(Need { what, bytes, field: "/partition/cells" })?;
+        }
         let pairs = ordinary.len() as u64 * inputs.len() as u64;
         let layout = Layout::new(&tables, &occurs, landing.axes(), pairs)?;
         let bytes = Images::bytes(&layout, ordinary.len(), inputs.len());

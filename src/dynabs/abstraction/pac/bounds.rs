@@ -66,6 +66,11 @@ impl<K: Copy + Eq + Ord + Hash + Send + Sync> BoundTable<K> {
         Self { intervals: events.par_iter().map(interval).collect() }
     }
 
+    /// All intervals, in no order.
+    pub(super) fn intervals(&self) -> impl Iterator<Item = &Interval> {
+        self.intervals.values()
+    }
+
     /// The interval of an event that the table was made for.
     pub(super) fn get(&self, count: Count, key: K) -> Interval {
         match self.intervals.get(&(count, key)) {

@@ -105,7 +105,7 @@ use imdp::progress::Progress;
 use levels::{EventLevels, LowerBounds};
 pub(super) use levels::{offset_weight, total_offset_weight};
 use preference::Chooser;
-pub(super) use preference::Preference;
+pub(super) use preference::{Preference, Worth};
 pub(super) use prepared::Prepared;
 use rayon::prelude::*;
 use roomy::RoomBounds;
@@ -143,6 +143,8 @@ struct Action<'p> {
     /// The number of the way of ending.
     way: usize,
     target: usize,
+    /// The number of the row.
+    row: usize,
 }
 
 impl<'a> PacRows<'a> {
@@ -177,16 +179,20 @@ impl<'a> PacRows<'a> {
         let lost = BoundTable::new(lost_events, &size, |()| of_lost);
         let shared = landings.shared().map(|landing| intervals(landing, &vec![0; grid.dimension()], &cells));
         let between = &noise.between;
-        let in_room = |&room| {
-            RoomBounds::new(room, &prepared, &landings, between, shared.as_deref().unwrap_or_default())
-        };
+        let in_room = |&room| RoomBounds::new(room, &prepared, &landings, between);
         let in_rooms: Vec<RoomBounds> = rooms.distinct.par_iter().filter_map(in_room).collect();
         let ground = grounds.any();
-        let stencils = landings.shared().zip(shared.as_deref()).map(|(landing, shared)| {
-            let of_rooms = in_rooms.iter().map(|room| (&room.intervals[..], room.leaving));
-            let all = std::iter::once((shared, 0.0)).chain(of_rooms);
-            let windows = landings.shared_windows();
-            all.flat_map(|bounds| stencils(landing, windows, ground, bounds, &prepared.unseen)).collect()
+        let windows = landings.shared_windows();
+        let stencils = landings.shared().zip(shared).map(|(landing, shared)| {
+            let places = places(landing, windows);
+            let mut all = stencils(windows, &places, ground, &shared, &prepared.unseen);
+            for room in &in_rooms {
+                for (window, places) in places.iter().enumerate() {
+                    let usual = usual_failed((prepared.unseen[window] + room.leaving).next_up());
+                    all.push(all[window].with_lower(usual, room.lower.clone(), places.clone()));
+                }
+            }
+            all.into()
         });
         Ok(Self {
             in_rooms,
@@ -220,22 +226,22 @@ impl<'a> PacRows<'a> {
             None => super::row_tasks::build_rows(count, progress, |row, rows| {
                 let action = self.action(row);
                 let stencils = self.stencils_of(action.target);
-                let mut chooser = Chooser::new(self, preference);
+                let rivals = self.rivals(&stencils);
+                let mut chooser = Chooser::new(self, preference, &rivals);
                 let chosen = chooser.choose(&stencils, action);
                 rows.push_row(chooser.row(&stencils, &chosen, action));
             })
             .into(),
-            Some(stencils) => StencilRows::new(
-                self.grounds.all(),
-                stencils.clone(),
-                self.targets.len(),
-                || Chooser::new(self, preference),
-                |chooser, row| {
+            Some(stencils) => {
+                let rivals = self.rivals(stencils);
+                let start = || Chooser::new(self, preference, &rivals);
+                let choose = |chooser: &mut Chooser<'_>, row| {
                     progress.advance(1);
                     chooser.choose(stencils, self.action(row))
-                },
-            )
-            .into(),
+                };
+                let (grounds, stencils) = (self.grounds.all(), stencils.clone());
+                StencilRows::new(grounds, stencils, self.targets.len(), start, choose).into()
+            }
         };
         progress.finish();
         rows
@@ -258,7 +264,7 @@ impl<'a> PacRows<'a> {
     fn action(&self, row: usize) -> Action<'_> {
         let (memory, target) = (row / self.targets.len(), row % self.targets.len());
         let (ground, way, ends) = self.grounds.of(memory);
-        Action { ground, ends, way, target }
+        Action { ground, ends, way, target, row }
     }
 
     /// Where what is known of an action and its way of ending is.
@@ -281,6 +287,18 @@ impl<'a> PacRows<'a> {
         self.prepared.unseen.len()
     }
 
+    /// Of the windows with these stencils, those that may be better than the ones before: not those that list the same cells with
+    /// lower bounds nowhere above, for more noise is outside. With a room nothing else differs from window to window.
+    fn rivals(&self, stencils: &[Stencil]) -> Vec<usize> {
+        let is_beaten = |window: usize, before: usize| {
+            let mut of_goal = self.goal.intervals();
+            stencils[window].is_within(&stencils[before])
+                && of_goal.all(|goal| goal.lower[window] <= goal.lower[before])
+        };
+        let is_rival = |&window: &usize| !(0..window).any(|before| is_beaten(window, before));
+        (0..self.windows()).filter(is_rival).collect()
+    }
+
     /// Where the stencils of an action are among those of all.
     fn first_stencil(&self, target: usize) -> usize {
         let room = self.number_of_room(target).filter(|&room| room < self.in_rooms.len());
@@ -293,19 +311,17 @@ impl<'a> PacRows<'a> {
         let (landing, windows) = self.landings.of(self.targets, target, grid, &mut vec![0; grid.dimension()]);
         let from = self.landings.target_cell(self.targets, target);
         let intervals = intervals(&landing, &from, &self.cells);
-        stencils(&landing, &windows, self.grounds.any(), (&intervals, 0.0), &self.prepared.unseen)
+        stencils(&windows, &places(&landing, &windows), self.grounds.any(), &intervals, &self.prepared.unseen)
     }
 
     /// How much may fail if the row at `origin` is made with a window.
     fn failed(&self, stencil: &Stencil, action: Action<'_>, origin: &[i32], window: usize) -> f64 {
-        let unseen = self.prepared.unseen[window];
         let hull = stencil.runs().hull();
-        let is_clean = action.ground.contains(hull, origin) && action.ends.lost.of(hull, origin) == 0;
-        let most = if is_clean {
-            unseen
-        } else {
-            (unseen + self.lost.get(self.regions[self.place(action)].lost, ()).upper).next_up()
-        };
+        if action.ground.contains(hull, origin) && action.ends.lost.of(hull, origin) == 0 {
+            return stencil.usual().1;
+        }
+        let lost = self.regions[self.place(action)].lost;
+        let most = (self.prepared.unseen[window] + self.lost.get(lost, ()).upper).next_up();
         let most = self.room(action.target).map_or(most, |room| (most + room.leaving).next_up());
         round_decimal_up(most, DIGITS).min(1.0)
     }
@@ -342,25 +358,36 @@ impl<'a> PacRows<'a> {
     }
 }
 
-/// One stencil per window, in coordinates of the landing, with these intervals and so much noise that leaves a room.
+/// Per window, the places of its cells in the landing's table.
+fn places(landing: &CellCounts, windows: &[CellBox]) -> Vec<Arc<[u32]>> {
+    let of_window = |hull: &CellBox| {
+        let mut places = Vec::with_capacity(hull.volume());
+        hull.for_each(|cell| places.push(landing.table().position(cell) as u32));
+        places.into()
+    };
+    windows.iter().map(of_window).collect()
+}
+
+/// One stencil per window, in coordinates of the landing, with the intervals of cells at these places.
 fn stencils(
-    landing: &CellCounts,
     windows: &[CellBox],
+    places: &[Arc<[u32]>],
     ground: &Ground,
-    (intervals, leaving): (&[Interval], f64),
+    intervals: &[Interval],
     unseen: &[f64],
 ) -> Vec<Stencil> {
-    let stencil = |(window, hull): (usize, &CellBox)| {
-        let mut places = Vec::with_capacity(hull.volume());
-        hull.for_each(|cell| places.push(landing.table().position(cell)));
-        let most = if leaving > 0.0 { (unseen[window] + leaving).next_up() } else { unseen[window] };
-        let usual = (0.0, round_decimal_up(most, DIGITS).min(1.0));
-        Stencil::new(hull, ground, usual, |position| {
-            let interval = &intervals[places[position]];
+    let stencil = |((window, hull), places): ((usize, &CellBox), &Arc<[u32]>)| {
+        Stencil::new(hull, ground, usual_failed(unseen[window]), |position| {
+            let interval = &intervals[places[position] as usize];
             Some((interval.lower[window], interval.upper))
         })
     };
-    windows.iter().enumerate().map(stencil).collect()
+    windows.iter().enumerate().zip(places).map(stencil).collect()
+}
+
+/// What may fail where nothing lost is met.
+fn usual_failed(most: f64) -> (f64, f64) {
+    (0.0, round_decimal_up(most, DIGITS).min(1.0))
 }
 
 /// How many samples land in the regions of the task, per way of ending and action.

@@ -2,7 +2,7 @@
 
 use super::super::stencil::{Chosen, Stencil};
 use super::{Action, PacRows};
-use imdp::model::{Row, RowBuffer};
+use imdp::model::{Row, RowBuffer, RowSet};
 use imdp::solver::WorstExpectation;
 
 /// What is preferred of two windows; of equal ones, the larger.
@@ -14,37 +14,61 @@ pub(in super::super) enum Preference<'v> {
     ///
     /// A window with less mass outside may list more cells, each of which may get some mass: which of the two
     /// costs more depends on what these cells are worth.
-    Worth(&'v [f64]),
+    Worth(&'v Worth),
+}
+
+/// What it is worth to be in a state.
+pub(in super::super) struct Worth {
+    values: Vec<f64>,
+    /// Per row, at least the largest value among its successors, whatever the window.
+    most: Vec<f64>,
+}
+
+impl Worth {
+    /// With these values, for rows that differ from `rows` in their windows only.
+    pub(in super::super) fn new(values: Vec<f64>, rows: &RowSet) -> Self {
+        Self { most: rows.most_of_successors(&values), values }
+    }
 }
 
 /// Chooses windows, row after row.
 pub(super) struct Chooser<'a> {
     rows: &'a PacRows<'a>,
     preference: Preference<'a>,
+    /// The windows that may be chosen.
+    rivals: &'a [usize],
     buffer: RowBuffer,
     expectation: WorstExpectation,
 }
 
 impl<'a> Chooser<'a> {
-    pub(super) fn new(rows: &'a PacRows<'a>, preference: Preference<'a>) -> Self {
-        Self { rows, preference, buffer: RowBuffer::default(), expectation: WorstExpectation::default() }
+    pub(super) fn new(rows: &'a PacRows<'a>, preference: Preference<'a>, rivals: &'a [usize]) -> Self {
+        Self {
+            rows,
+            preference,
+            rivals,
+            buffer: RowBuffer::default(),
+            expectation: WorstExpectation::default(),
+        }
     }
 
     /// The window of an action's row, and what follows from it.
     pub(super) fn choose(&mut self, stencils: &[Stencil], action: Action<'_>) -> Chosen {
-        let Self { rows, preference, buffer: RowBuffer { entries, coordinates }, expectation } = self;
+        let Self { rows, preference, rivals, buffer: RowBuffer { entries, coordinates }, expectation } = self;
         action.ground.origin(action.target, coordinates);
-        let (first, windows) = (rows.first_stencil(action.target), 0..rows.windows());
-        let stencils = &stencils[first..first + windows.len()];
+        let first = rows.first_stencil(action.target);
+        let stencils = &stencils[first..first + rows.windows()];
+        let windows = rivals.iter().copied();
         let best = match preference {
+            Preference::Worth(Worth { most, .. }) if most[action.row] == 0.0 => 0,
             Preference::LeastFailing => {
                 first_best(windows, |window| -rows.failed(&stencils[window], action, coordinates, window))
             }
-            Preference::Worth(values) => first_best(windows, |window| {
+            Preference::Worth(Worth { values, .. }) => first_best(windows, |window| {
                 let stencil = &stencils[window];
                 let special = rows.special(stencil, action, coordinates, window);
-                let row = stencil.row(action.ground, coordinates, special, entries);
-                expectation.of(row, values)
+                let length = rows.length(stencil, action, coordinates, special) as usize;
+                expectation.of(stencil.row(action.ground, coordinates, (special, length), entries), values)
             }),
         };
         let stencil = &stencils[best];
@@ -61,13 +85,14 @@ impl<'a> Chooser<'a> {
         action: Action<'_>,
     ) -> Row<'b> {
         let RowBuffer { entries, coordinates } = &mut self.buffer;
-        stencils[chosen.stencil as usize].row(action.ground, coordinates, chosen.special, entries)
+        let of_row = (chosen.special, chosen.length as usize);
+        stencils[chosen.stencil as usize].row(action.ground, coordinates, of_row, entries)
     }
 }
 
 /// The first of those for which the worth is greatest.
-fn first_best(candidates: std::ops::Range<usize>, mut worth: impl FnMut(usize) -> f64) -> usize {
-    let mut best = (candidates.start, f64::NEG_INFINITY);
+fn first_best(candidates: impl Iterator<Item = usize>, mut worth: impl FnMut(usize) -> f64) -> usize {
+    let mut best = (0, f64::NEG_INFINITY);
     for candidate in candidates {
         let own = worth(candidate);
         if own > best.1 {

@@ -30,29 +30,25 @@ impl BoxCount {
 
     /// Those in the part of a box at `origin` that lies in the grid.
     pub(in super::super) fn of(&self, hull: &CellBox, origin: &[i32]) -> u32 {
-        let n = origin.len();
-        let side = |j: usize| {
+        let mut corners = Vec::with_capacity(origin.len());
+        let mut stride = self.sums.len();
+        for (j, &cells) in self.cells.iter().enumerate() {
+            stride /= cells as usize;
             let lower = (hull.lower[j] + origin[j]).max(0);
-            let upper = (hull.upper[j] + origin[j]).min(self.cells[j] - 1);
-            (lower, upper)
-        };
-        if (0..n).any(|j| side(j).0 > side(j).1) {
-            return 0;
-        }
-        let mut total = 0u32;
-        // Inclusion and exclusion over the corners; a sum that wraps around comes back.
-        for corner in 0..1u32 << n {
-            let mut index = Some(0usize);
-            for j in 0..n {
-                let (lower, upper) = side(j);
-                let coordinate = if corner >> j & 1 == 1 { lower - 1 } else { upper };
-                let along = usize::try_from(coordinate).ok();
-                index = index.zip(along).map(|(index, along)| index * self.cells[j] as usize + along);
+            let upper = (hull.upper[j] + origin[j]).min(cells - 1);
+            if lower > upper {
+                return 0;
             }
-            let sum = index.map_or(0, |index| self.sums[index]);
-            total =
-                if corner.count_ones() % 2 == 0 { total.wrapping_add(sum) } else { total.wrapping_sub(sum) };
+            corners
+                .push((upper as usize * stride, usize::try_from(lower - 1).ok().map(|below| below * stride)));
         }
-        total
+        self.up_to(0, &corners)
+    }
+
+    /// Those between the corners, by inclusion and exclusion; a sum that wraps around comes back.
+    fn up_to(&self, place: usize, corners: &[(usize, Option<usize>)]) -> u32 {
+        let Some((&(upper, below), rest)) = corners.split_first() else { return self.sums[place] };
+        let within = self.up_to(place + upper, rest);
+        below.map_or(within, |below| within.wrapping_sub(self.up_to(place + below, rest)))
     }
 }

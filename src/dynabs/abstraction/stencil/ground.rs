@@ -46,6 +46,12 @@ impl Ground {
         state >= self.heads
     }
 
+    /// Whether rows list all of these states one by one.
+    pub(super) fn lists_all(&self, states: &[StateId]) -> bool {
+        // Without a way out in the middle, so that it is done many at a time.
+        states.iter().fold(true, |all, &state| all & self.lists(state))
+    }
+
     /// Writes where the coordinates of an action's row count from into `origin`.
     pub(in super::super) fn origin(&self, target: usize, origin: &mut Vec<i32>) {
         let originals: usize = self.targets.iter().map(Vec::len).product();

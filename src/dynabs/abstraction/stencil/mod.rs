@@ -18,14 +18,29 @@ pub(super) use hits::Hits;
 use imdp::model::{Row, RowEntries, StateId};
 pub(super) use rows::{Chosen, StencilRows};
 pub(super) use runs::Runs;
+use std::sync::Arc;
+
+/// Runs from this length on are copied as a whole, if all of their cells are listed.
+const WORTH_COPYING: usize = 16;
 
 /// The intervals of cells around an origin.
 #[derive(Clone, Debug)]
 pub(super) struct Stencil {
-    runs: Runs,
-    /// By position in the runs, after the interval that the first special state mostly has.
-    lower: Vec<f64>,
-    upper: Vec<f64>,
+    runs: Arc<Runs>,
+    /// The interval that the first special state mostly has.
+    usual: (f64, f64),
+    lower: Lower,
+    /// By position in the runs, after that of the first special state.
+    upper: Arc<[f64]>,
+}
+
+/// The lower bounds of a stencil.
+#[derive(Clone, Debug)]
+enum Lower {
+    /// By position in the runs, after that of the first special state.
+    InOrder(Arc<[f64]>),
+    /// By place, and the place of every position in the runs: what stencils of several shapes have in common.
+    At(Arc<[f64]>, Arc<[u32]>),
 }
 
 /// The intervals of the special states in a row: the first one, and all goal cells together if it meets some.
@@ -45,8 +60,15 @@ impl Stencil {
         interval: impl Fn(usize) -> Option<(f64, f64)>,
     ) -> Self {
         let volume = hull.volume();
-        let (lower, upper) = std::iter::once(usual).chain((0..volume).filter_map(&interval)).unzip();
-        Self { runs: Runs::new(hull, ground, |position| interval(position).is_some()), lower, upper }
+        let (lower, upper): (Vec<f64>, Vec<f64>) =
+            std::iter::once(usual).chain((0..volume).filter_map(&interval)).unzip();
+        let runs = Runs::new(hull, ground, |position| interval(position).is_some());
+        Self { runs: Arc::new(runs), usual, lower: Lower::InOrder(lower.into()), upper: upper.into() }
+    }
+
+    /// The same cells with other lower bounds, of which the cells have those at their places, and another usual interval.
+    pub(super) fn with_lower(&self, usual: (f64, f64), of_places: Arc<[f64]>, places: Arc<[u32]>) -> Self {
+        Self { usual, lower: Lower::At(of_places, places), ..self.clone() }
     }
 
     /// The cells.
@@ -54,9 +76,26 @@ impl Stencil {
         &self.runs
     }
 
+    /// The interval that the first special state mostly has.
+    pub(super) fn usual(&self) -> (f64, f64) {
+        self.usual
+    }
+
+    /// Whether these are the cells of another stencil, with lower bounds nowhere above its own; upper bounds are the same.
+    pub(super) fn is_within(&self, other: &Self) -> bool {
+        let (runs, others) = (&self.runs, &other.runs);
+        runs.hull() == others.hull()
+            && runs.len() == others.len()
+            && self.upper[1..] == other.upper[1..]
+            && (0..runs.len()).all(|position| self.lower(position) <= other.lower(position))
+    }
+
     /// The lower bound at a position in the runs.
     pub(super) fn lower(&self, position: usize) -> f64 {
-        self.lower[position + 1]
+        match &self.lower {
+            Lower::InOrder(lower) => lower[position + 1],
+            Lower::At(of_places, places) => of_places[places[position] as usize],
+        }
     }
 
     /// The upper bound at a position in the runs.
@@ -64,24 +103,28 @@ impl Stencil {
         self.upper[position + 1]
     }
 
-    /// The interval that the first special state mostly has.
-    pub(super) fn usual(&self) -> (f64, f64) {
-        (self.lower[0], self.upper[0])
-    }
-
-    /// The row at `origin`.
+    /// The row at `origin`, if it has so many entries.
     pub(super) fn row<'a>(
         &'a self,
         ground: &Ground,
         origin: &[i32],
-        special: Special,
+        (special, length): (Special, usize),
         entries: &'a mut RowEntries,
     ) -> Row<'a> {
+        if self.is_whole(length, special) {
+            return self.whole_row(ground, origin, special, entries);
+        }
         let RowEntries { successors, lower, upper } = entries;
-        let room = self.runs.len() + 2;
-        successors.resize(room, StateId(0));
-        lower.resize(room, 0.0);
-        upper.resize(room, 0.0);
+        // One more, for what is written and not listed.
+        let room = length.min(self.runs.len() + 1) + 1;
+        if successors.len() < room {
+            successors.resize(room, StateId(0));
+        }
+        for bounds in [&mut *lower, &mut *upper] {
+            if bounds.len() < room {
+                bounds.resize(room, 0.0);
+            }
+        }
         let mut end = 0;
         let specials = [Some((StateId(0), special.first)), special.reached.map(|b| (StateId(1), b))];
         for (state, bounds) in specials.into_iter().flatten() {
@@ -90,32 +133,69 @@ impl Stencil {
         }
         self.runs.for_each(ground, origin, |first, position, length| {
             let states = &ground.states[first..first + length];
-            let own = position + 1..position + 1 + length;
-            let bounds = self.lower[own.clone()].iter().zip(&self.upper[own]);
-            for (&state, (&low, &high)) in states.iter().zip(bounds) {
+            if length >= WORTH_COPYING && ground.lists_all(states) {
+                let place = end..end + length;
+                successors[place.clone()].copy_from_slice(states);
+                upper[place.clone()].copy_from_slice(&self.upper[position + 1..position + 1 + length]);
+                self.copy_lower(position, &mut lower[place]);
+                end += length;
+                return;
+            }
+            for ((&state, &high), position) in states.iter().zip(&self.upper[position + 1..]).zip(position..)
+            {
                 // What is not listed is overwritten by what comes next.
-                (successors[end], lower[end], upper[end]) = (state, low, high);
+                (successors[end], lower[end], upper[end]) = (state, self.lower(position), high);
                 end += usize::from(ground.lists(state));
             }
         });
         Row { successors: &successors[..end], lower: &lower[..end], upper: &upper[..end], exact: &[] }
     }
 
-    /// Whether a row with so many entries lists all cells, with the usual interval before them.
-    fn is_whole(&self, entries: usize, special: Special) -> bool {
-        let Special { first, reached } = special;
-        reached.is_none() && entries == self.lower.len() && first == self.usual()
+    /// Writes the lower bounds from a position in the runs on.
+    fn copy_lower(&self, position: usize, out: &mut [f64]) {
+        match &self.lower {
+            Lower::InOrder(lower) => out.copy_from_slice(&lower[position + 1..position + 1 + out.len()]),
+            Lower::At(of_places, places) => {
+                for (out, &place) in out.iter_mut().zip(&places[position..]) {
+                    *out = of_places[place as usize];
+                }
+            }
+        }
     }
 
-    /// The same for a row of which it is known that it lists all cells of the stencil, and has the usual interval before them.
-    fn whole_row<'a>(&'a self, ground: &Ground, origin: &[i32], entries: &'a mut RowEntries) -> Row<'a> {
-        let successors = &mut entries.successors;
+    /// Whether a row with so many entries lists all cells, with nothing else before them than is at hand.
+    fn is_whole(&self, entries: usize, special: Special) -> bool {
+        let is_usual = matches!(self.lower, Lower::At(..)) || special.first == self.usual;
+        special.reached.is_none() && entries == self.upper.len() && is_usual
+    }
+
+    /// The same for a row of which it is known that it lists all cells of the stencil.
+    fn whole_row<'a>(
+        &'a self,
+        ground: &Ground,
+        origin: &[i32],
+        special: Special,
+        entries: &'a mut RowEntries,
+    ) -> Row<'a> {
+        let RowEntries { successors, lower, upper } = entries;
         successors.clear();
         successors.push(StateId(0));
         self.runs.for_each(ground, origin, |first, _, length| {
             successors.extend_from_slice(&ground.states[first..first + length]);
         });
-        Row { successors, lower: &self.lower, upper: &self.upper, exact: &[] }
+        let (lower, upper) = match &self.lower {
+            Lower::InOrder(lower) => (&lower[..], &self.upper[..]),
+            Lower::At(of_places, places) => {
+                lower.clear();
+                lower.push(special.first.0);
+                lower.extend(places.iter().map(|&place| of_places[place as usize]));
+                upper.clear();
+                upper.push(special.first.1);
+                upper.extend_from_slice(&self.upper[1..]);
+                (&lower[..], &upper[..])
+            }
+        };
+        Row { successors, lower, upper, exact: &[] }
     }
 }
 

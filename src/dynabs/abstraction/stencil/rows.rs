@@ -116,11 +116,7 @@ impl ComputedRows for StencilRows {
         let RowBuffer { entries, coordinates } = buffer;
         let ground = &self.grounds[id.index() / self.targets];
         ground.origin(id.index() % self.targets, coordinates);
-        if stencil.is_whole(self.row_len(id), special) {
-            stencil.whole_row(ground, coordinates, entries)
-        } else {
-            stencil.row(ground, coordinates, special, entries)
-        }
+        stencil.row(ground, coordinates, (special, self.row_len(id)), entries)
     }
 
     fn most_of_successors(&self, of_states: &[f64]) -> Vec<f64> {

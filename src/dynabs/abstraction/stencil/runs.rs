@@ -68,6 +68,9 @@ impl Runs {
             }
             return;
         }
+        if self.len() == self.hull.volume() {
+            return self.walk(ground, origin, (0, 0, 0), &mut visit);
+        }
         let Some(last) = origin.len().checked_sub(1) else { return };
         for ((positions, shift), start) in runs.zip(self.starts.chunks_exact(origin.len())) {
             let is_inside = (0..last).all(|j| (0..ground.cells[j]).contains(&(start[j] + origin[j])));
@@ -81,6 +84,32 @@ impl Runs {
                 let number = (base + shift + i64::from(cut)) as usize;
                 visit(number, positions[0] as usize + cut as usize, (end - first - cut) as usize);
             }
+        }
+    }
+
+    /// The same where all cells of the box are there, without a look at those beyond the grid: dimension `j` and those after it,
+    /// with what those before add to the number of a cell and to its position.
+    fn walk(
+        &self,
+        ground: &Ground,
+        origin: &[i32],
+        (j, number, position): (usize, usize, usize),
+        visit: &mut impl FnMut(usize, usize, usize),
+    ) {
+        let (lower, upper) = (self.hull.lower[j], self.hull.upper[j]);
+        let first = lower.max(-origin[j]);
+        let last = upper.min(ground.cells[j] - 1 - origin[j]);
+        if first > last {
+            return;
+        }
+        let number = number * ground.cells[j] as usize + (first + origin[j]) as usize;
+        let position = position * ((upper - lower) as usize + 1) + (first - lower) as usize;
+        let length = (last - first) as usize + 1;
+        if j + 1 == origin.len() {
+            return visit(number, position, length);
+        }
+        for i in 0..length {
+            self.walk(ground, origin, (j + 1, number + i, position + i), visit);
         }
     }
 }

@@ -54,24 +54,31 @@ proptest! {
         let listed_cells = in_grid().filter(|&(p, cell)| listed(p) && ground.states[cell] >= StateId(heads));
         expected.extend(listed_cells.map(|(p, cell)| (ground.states[cell], interval(p))));
         let mut entries = RowEntries::default();
-        let row = stencil.row(&ground, &origin, special, &mut entries);
-        let bounds = row.lower.iter().copied().zip(row.upper.iter().copied());
-        let found: Vec<_> = row.successors.iter().copied().zip(bounds).collect();
-        prop_assert_eq!(&found, &expected);
+        let mut listed_by = |stencil: &Stencil, special, length| {
+            let row = stencil.row(&ground, &origin, (special, length), &mut entries);
+            let bounds = row.lower.iter().copied().zip(row.upper.iter().copied());
+            row.successors.iter().copied().zip(bounds).collect::<Vec<_>>()
+        };
+        prop_assert_eq!(&listed_by(&stencil, special, expected.len()), &expected);
+
+        // Lower bounds by place: those of the cells that are listed, backwards.
+        let positions: Vec<usize> = (0..hull.volume()).filter(|&position| listed(position)).collect();
+        let of_places: Vec<f64> = positions.iter().rev().map(|&position| interval(position).0).collect();
+        let places: Vec<u32> = (0..of_places.len() as u32).rev().collect();
+        let by_place = stencil.with_lower((0.0, 0.5), of_places.into(), places.into());
+        prop_assert_eq!(&listed_by(&by_place, special, expected.len()), &expected);
+
+        // With nothing merged or cut off a row is made at once: the same as entry by entry.
+        for (stencil, first) in [(&stencil, (0.0, 0.25)), (&by_place, (0.0, 0.125))] {
+            let usual = Special { first, reached: None };
+            let one_by_one = listed_by(stencil, usual, usize::MAX);
+            prop_assert_eq!(listed_by(stencil, usual, one_by_one.len()), one_by_one);
+        }
 
         prop_assert_eq!(ground.volume(&hull, &origin) as usize, in_grid().count());
         for kind in [StateId(0), StateId(1)] {
             let count = BoxCount::new(&ground, |state| state == kind).of(&hull, &origin);
             prop_assert_eq!(count as usize, in_grid().filter(|&(_, cell)| ground.states[cell] == kind).count());
-        }
-
-        // With nothing merged or cut off it is a whole row.
-        let usual = Special { first: (0.0, 0.25), reached: None };
-        let plain = stencil.row(&ground, &origin, usual, &mut entries);
-        let (successors, lower) = (plain.successors.to_vec(), plain.lower.to_vec());
-        if stencil.is_whole(successors.len(), usual) {
-            let whole = stencil.whole_row(&ground, &origin, &mut entries);
-            prop_assert_eq!((whole.successors, whole.lower), (&successors[..], &lower[..]));
         }
     }
 }

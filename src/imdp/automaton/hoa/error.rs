@@ -52,7 +52,8 @@ pub enum HoaErrorKind {
     },
     /// Two edges of a state can be taken with the same letter.
     #[error(
-        "state {state} has two edges for the same letter; expected a deterministic automaton (Spot writes one with `ltl2tgba --deterministic --generic`, or `autfilt --determinize`)"
+        "found two edges of state {state} for the same letter; expected a deterministic automaton; Spot writes one with \
+         `ltl2tgba --deterministic --generic`, or `autfilt --determinize`"
     )]
     Nondeterministic {
         /// The state.
@@ -65,7 +66,7 @@ pub enum HoaErrorKind {
     #[error("found several initial states; expected one, for the automaton must be deterministic")]
     SeveralStarts,
     /// A state is described twice.
-    #[error("state {state} is described twice; expected once")]
+    #[error("found state {state} for the second time; expected it once")]
     Twice {
         /// The state.
         state: u64,

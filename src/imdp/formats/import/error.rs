@@ -92,7 +92,7 @@ pub enum ImportError {
         problem: String,
     },
     /// The content is not what the format wants.
-    #[error("{at}: expected {expected}, found {found}")]
+    #[error("{at}: found {found}; expected {expected}")]
     Refused {
         /// Where.
         at: Position,

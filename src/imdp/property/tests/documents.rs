@@ -93,6 +93,6 @@ fn one_broken_line_does_not_stop_the_others() {
 #[test]
 fn constants_without_a_value_are_named() {
     let entries = read("const int N; Pmaxmin=? [ F<=N b ]; Pmaxmin=? [ F b ]", "");
-    assert!(printed(&entries[0]).contains("the constant N has no value"), "{}", printed(&entries[0]));
+    assert!(printed(&entries[0]).contains("the constant N, which has no value"), "{}", printed(&entries[0]));
     assert!(entries[1].inquiry.is_ok());
 }

@@ -108,14 +108,14 @@ fn misfits_are_explained() {
     for (formula, words) in [
         ("\"gaol\"", &["no label \"gaol\"", "did you mean \"goal\"?", "labels: init, deadlock, goal"][..]),
         ("\"xyzzy\"", &["init, deadlock, goal"]),
-        ("z", &["no variable z; its variables: x, y, b, c"]),
+        ("z", &["no variable z", "one of its variables: x, y, b, c"]),
         ("goal", &["no variable goal", "did you mean \"goal\"?"]),
         ("\"x\"", &["no label \"x\"", "did you mean x?"]),
         ("x=z", &["no variable z"]),
-        ("x", &["x is an integer variable"]),
-        ("b+1=2", &["b is a Boolean variable"]),
-        ("b<c", &["b is a Boolean variable"]),
-        ("x=b", &["b is a Boolean variable"]),
+        ("x", &["the integer variable x"]),
+        ("b+1=2", &["the Boolean variable b"]),
+        ("b<c", &["the Boolean variable b"]),
+        ("x=b", &["the Boolean variable b"]),
         ("y*y*y*y>0", &["y*y*y", "state 0", "64 bits"]),
     ] {
         let error = states(formula, &model).unwrap_err().to_string();

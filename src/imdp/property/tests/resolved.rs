@@ -32,10 +32,10 @@ fn ambiguous_directions_are_refused() {
     for (text, kind, words) in [
         ("Pmin=? [ F b ]", Imdp, ["PRISM reads it as Pminmin", "Storm as Pminmax"]),
         ("(Pmax=? [ F b ])>0.5", Imdp, ["PRISM reads it as Pmaxmax", "Storm as Pmaxmin"]),
-        ("Pmaxmin=? [ F b ]", Idtmc, ["Pmaxmin", "write Pmin"]),
-        ("Pmaxmax=? [ F b ]", Idtmc, ["Pmaxmax", "write Pmax"]),
-        ("Pminmin=? [ F b ]", Idtmc, ["Pminmin", "write Pmin"]),
-        ("Pminmax=? [ F b ]", Idtmc, ["Pminmax", "write Pmax"]),
+        ("Pmaxmin=? [ F b ]", Idtmc, ["Pmaxmin", "expected Pmin"]),
+        ("Pmaxmax=? [ F b ]", Idtmc, ["Pmaxmax", "expected Pmax"]),
+        ("Pminmin=? [ F b ]", Idtmc, ["Pminmin", "expected Pmin"]),
+        ("Pminmax=? [ F b ]", Idtmc, ["Pminmax", "expected Pmax"]),
     ] {
         let error = text.parse::<Property>().unwrap().resolve(kind).unwrap_err().to_string();
         assert!(words.iter().all(|word| error.contains(word)), "{error}");

@@ -1,6 +1,6 @@
 //! One application of the Bellman operator with rewards.
 
-use super::super::expectation::{Bound, RowBlock};
+use super::super::expectation::{Bound, RowBlock, Workspace};
 use super::super::query::{Direction, Players};
 use super::costs;
 use crate::model::{IntervalMdp, RewardStructure, RowBuffer, RowId, RowSet, Rows, StateId};
@@ -23,6 +23,7 @@ pub(super) struct Operator {
     choices: Vec<Vec<Choice>>,
     rows: RowSet,
     block: RowBlock,
+    workspace: Workspace,
     /// How many states the model has; rows with rewards on branches have successors of their own beyond them.
     model_states: usize,
     /// Per extra successor, the state it stands for and what the branch to it earns.
@@ -89,8 +90,9 @@ impl Operator {
             choices.push(own);
         }
         let rows = RowSet::from(rows);
-        let block = RowBlock::new(&rows, RowId::first(rows.len()).collect());
-        Self { states, players, choices, rows, block, model_states, branches }
+        let mut workspace = Workspace::default();
+        let block = RowBlock::new(&rows, RowId::first(rows.len()).collect(), &mut workspace);
+        Self { states, players, choices, rows, block, workspace, model_states, branches }
     }
 
     /// The most that a choice and the branches behind it can earn.
@@ -106,7 +108,13 @@ impl Operator {
         let needs_own = discount != 1.0 || !self.branches.is_empty();
         let later: Cow<'_, [f64]> =
             if needs_own { self.later(values, discount, side).into() } else { values.into() };
-        let weights = self.block.evaluate(&self.rows, &later, (self.players.nature, side), |_| None);
+        let weights = self.block.evaluate(
+            &self.rows,
+            &later,
+            (self.players.nature, side),
+            |_| None,
+            &mut self.workspace,
+        );
         let maximises = self.players.policy == Direction::Max;
         let (mut results, mut chosen) = (vec![], vec![]);
         for choices in &self.choices {

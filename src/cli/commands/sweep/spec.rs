@@ -1,0 +1,165 @@
+//! What a sweep varies.
+
+use crate::CliError;
+use dynabs::Diagnostic;
+use dynabs::model_file::{Document, SetArgument};
+use imdp::files;
+use serde::Deserialize;
+use serde_json::{Map, Value};
+use std::path::{Path, PathBuf};
+
+/// So many jobs at most: their number is in the names of their directories.
+const MOST_JOBS: usize = 9999;
+
+/// The part of a model file that says how many settings are compiled with the same samples.
+const SETTINGS_OF_SAMPLES: &str = "/probabilities/sweep";
+
+/// A file that describes a sweep.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Spec {
+    /// The model file, seen from this one.
+    model: PathBuf,
+    /// An object with a list of values for each JSON pointer, of which every combination is a setting; or a list of settings, each
+    /// an object with a value for each pointer.
+    settings: Value,
+    /// Whether the promises of all settings hold together.
+    #[serde(default = "together")]
+    together: bool,
+}
+
+fn together() -> bool {
+    true
+}
+
+/// The settings of a sweep.
+pub(super) struct Sweep {
+    /// The model file: an absolute path.
+    pub(super) model: PathBuf,
+    /// Per setting, the values of JSON pointers in it.
+    pub(super) settings: Vec<Map<String, Value>>,
+    /// Whether every setting but those without samples has its part of what all may fail with.
+    pub(super) together: bool,
+}
+
+impl Sweep {
+    /// Reads a spec and tries all of its settings on the model.
+    ///
+    /// # Errors
+    /// [`CliError::Input`] if it is none, or if a setting makes no problem.
+    pub(super) fn read(path: &Path) -> Result<Self, CliError> {
+        let name = path.display().to_string();
+        let text = files::read_text(path).map_err(|error| CliError::reading(path, &error))?;
+        let spec: Spec = serde_json::from_str(&text).map_err(|error| {
+            let expected = "an object with \"model\" and \"settings\", and \"together\" if wanted";
+            Diagnostic::at("", error.to_string(), expected).in_file(&name)
+        })?;
+        let model = path.parent().unwrap_or(Path::new("")).join(spec.model);
+        let model = model.canonicalize().map_err(|error| CliError::reading(&model, &error))?;
+        let settings = settings(spec.settings).map_err(|error| error.in_file(&name))?;
+        let mut sweep = Self { model, settings, together: spec.together };
+        sweep.try_settings()?;
+        Ok(sweep)
+    }
+
+    /// Makes sure that every setting is a problem, and gives each its part of what all may fail with.
+    fn try_settings(&mut self) -> Result<(), CliError> {
+        let text = files::read_text(&self.model).map_err(|error| CliError::reading(&self.model, &error))?;
+        let original = Document::parse(&self.model, &text)?;
+        let number = self.settings.len();
+        for (i, setting) in self.settings.iter_mut().enumerate() {
+            let mut document = original.clone();
+            document.name = format!("{} with setting {}", original.name, i + 1);
+            for (pointer, value) in setting.iter() {
+                document.set(&argument(pointer, value)?)?;
+            }
+            document.stated()?;
+            if self.together && number > 1 && document.value.pointer(SETTINGS_OF_SAMPLES).is_none() {
+                let share = Value::from(number);
+                document.set(&argument(SETTINGS_OF_SAMPLES, &share)?)?;
+                // Where nothing depends on samples there is nothing to share.
+                if document.stated().is_ok() {
+                    setting.insert(SETTINGS_OF_SAMPLES.to_owned(), share);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// `/pointer=value`, as `--set` takes it.
+pub(super) fn text(pointer: &str, value: &Value) -> String {
+    format!("{pointer}={value}")
+}
+
+fn argument(pointer: &str, value: &Value) -> Result<SetArgument, CliError> {
+    text(pointer, value).parse().map_err(|error| CliError::Input(format!("/settings: {error}")))
+}
+
+/// All combinations of lists of values, or a list as it is.
+fn settings(settings: Value) -> Result<Vec<Map<String, Value>>, Diagnostic> {
+    let expected = "an object with a list of values for every JSON pointer, or a list of objects with one value for each";
+    let all = match settings {
+        Value::Object(lists) => {
+            let mut all = vec![Map::new()];
+            for (pointer, values) in lists {
+                let Value::Array(values) = values else {
+                    return Err(Diagnostic::at(
+                        format!("/settings{pointer}"),
+                        values.to_string(),
+                        "a list of values",
+                    ));
+                };
+                if all.len().saturating_mul(values.len()) > MOST_JOBS {
+                    return Err(too_many());
+                }
+                let with = |setting: &Map<String, Value>, value: &Value| {
+                    let mut setting = setting.clone();
+                    setting.insert(pointer.clone(), value.clone());
+                    setting
+                };
+                all =
+                    all.iter().flat_map(|setting| values.iter().map(|value| with(setting, value))).collect();
+            }
+            all
+        }
+        Value::Array(list) => {
+            let object = |value| match value {
+                Value::Object(setting) => Ok(setting),
+                other => Err(Diagnostic::at("/settings", other.to_string(), expected)),
+            };
+            list.into_iter().map(object).collect::<Result<_, _>>()?
+        }
+        other => return Err(Diagnostic::at("/settings", other.to_string(), expected)),
+    };
+    match all.len() {
+        0 => Err(Diagnostic::at("/settings", "no setting", "at least one")),
+        1..=MOST_JOBS => Ok(all),
+        _ => Err(too_many()),
+    }
+}
+
+fn too_many() -> Diagnostic {
+    Diagnostic::at("/settings", format!("more than {MOST_JOBS} settings"), format!("at most {MOST_JOBS}"))
+        .remedy("Write several sweeps.")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn objects_are_combined_and_lists_are_not() {
+        let all = settings(json!({"/a": [1, 2], "/b": ["x", "y", "z"]})).unwrap();
+        assert_eq!(all.len(), 6);
+        assert_eq!(Value::Object(all[1].clone()), json!({"/a": 1, "/b": "y"}));
+        let listed = settings(json!([{"/a": 1}, {"/b": 2}])).unwrap();
+        assert_eq!(Value::Object(listed[1].clone()), json!({"/b": 2}));
+        for wrong in [json!([]), json!({"/a": []}), json!({"/a": 1}), json!([1]), json!(3)] {
+            assert!(settings(wrong.clone()).is_err(), "{wrong}");
+        }
+        let many: Vec<u32> = (0..101).collect();
+        assert!(settings(json!({"/a": many, "/b": many})).is_err());
+    }
+}
