@@ -143,6 +143,12 @@ fn parts_of_inputs_are_refused_by_field() {
         value["partition"]["cells"] = json!([40, 40]);
         value["partition"]["resolution"] = json!([64, 64]);
     });
+    // The second component moves by up to a hundred cells with the first: boxes of many sizes, each with an array of its own.
+    refused(600_000, &["--dry-run"], &["the arrays that noise moves", "/partition/cells", "MiB"], |value| {
+        value["noise"] = json!({"gaussian": {"covariance": [[4, 400], [400, 40004]]}});
+        value["partition"]["cells"] = json!([200, 200]);
+        value["partition"]["resolution"] = json!([16, 16]);
+    });
     refused(330_000, &["-o", "out"], &["the model of the lattice", "/partition/cells", "MiB"], |value| {
         value["partition"]["cells"] = json!([200, 200]);
     });

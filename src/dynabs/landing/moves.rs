@@ -4,7 +4,7 @@ use super::masses::Masses;
 use super::side::Side;
 use super::stencil::{Band, Stencil, Tap};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The positions of one coordinate that an array has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,6 +96,15 @@ impl Move {
             }
         };
         noise.iter().enumerate().map(one).collect()
+    }
+
+    /// Bytes of the arrays that [`apply`](Self::apply) has at the same time: what it is given, what it returns, and the extrema over
+    /// boxes of every size, with two more while they are made.
+    pub(super) fn bytes(&self) -> u64 {
+        let numbers = |spans: &[Span]| spans.iter().fold(1u64, |n, span| n.saturating_mul(span.len as u64));
+        let sizes: BTreeSet<&[u32]> = self.taps.iter().map(|tap| &tap.size[..]).collect();
+        let after = numbers(&self.to).saturating_mul(sizes.len() as u64 + 3);
+        after.saturating_add(numbers(&self.from)).saturating_mul(size_of::<f64>() as u64)
     }
 
     /// The values before the noise, for those after it.

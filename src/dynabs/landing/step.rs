@@ -78,6 +78,11 @@ impl Landing {
         &self.moves
     }
 
+    /// Bytes of the arrays that noise in boxes takes in a step; those of stages are no larger than those of images.
+    pub fn bytes_of_moves(&self) -> u64 {
+        self.moves.iter().map(Move::bytes).max().unwrap_or(0)
+    }
+
     /// The number of cells of the partition.
     pub fn num_cells(&self) -> usize {
         self.axes.iter().map(|axis| axis.cells).product()

@@ -25,7 +25,6 @@ use crate::partition::{CellId, CellKind};
 use crate::problem::{InputNoise, InputProblem};
 use crate::system::{ImageMap, Lattice};
 use crate::task::CellTask;
-pub use costs::CostError;
 pub use error::InputsError;
 pub use export::{InputEncoding, InputModel};
 use imdp::numeric::Rational;
@@ -89,6 +88,10 @@ impl InputAbstraction {
         let extent: Vec<_> = (0..grid.dimension()).map(|j| tables.extent(j, &occurs[j])).collect();
         let Landed { landing, relaxed, evidence, warnings } =
             landed(problem, &resolution, &extent, &mut footprint)?;
+        let (what, bytes) = ("the arrays that noise moves", landing.bytes_of_moves());
+        if bytes > 0 {
+            footprint.take(Need { what, bytes, field: "/partition/cells" })?;
+        }
         let pairs = ordinary.len() as u64 * inputs.len() as u64;
         let layout = Layout::new(&tables, &occurs, landing.axes(), pairs)?;
         let bytes = Images::bytes(&layout, ordinary.len(), inputs.len());
