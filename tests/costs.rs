@@ -1,4 +1,4 @@
-//! Expected costs of actions that are inputs, against the definition.
+//! Expected costs, of actions that are inputs against the definition, of targets where all is known.
 
 use assert_cmd::Command;
 use serde_json::Value;
@@ -80,6 +80,57 @@ fn least_expected_costs_are_bounded_from_both_sides() {
     }
 }
 
+/// Cells of width 1 and noise that does not leave the cell of a target: a step leads where it is steered to.
+#[test]
+fn costs_of_steering_are_bounded_from_both_sides() {
+    let scratch = TempDir::new().unwrap();
+    let directory = scratch.path();
+    let model = WALK
+        .replace(r#""inputs""#, r#""targets""#)
+        .replace(r#"{"lower": -0.5, "upper": 0.5}"#, r#"{"lower": -0.4, "upper": 0.4}"#)
+        .replace(r#"{"list": [[1], [2]]}"#, r#"{"lower": [-2.6], "upper": [2.6]}"#)
+        .replace(r#", "resolution": [1]"#, "");
+    let compile = |text: &str| {
+        fs::write(directory.join("walk.json"), text).unwrap();
+        dynabs(directory, "dynabs-compile", &["walk.json", "-o", "out", "--force", "--quiet"])
+    };
+    assert_eq!(compile(&model), (0, String::new()));
+    // Two steps lead to the goal; staying costs u² of at most 1/4 in each of 6 steps, and nothing in the middle of a cell.
+    for (name, [most, least]) in [("time", [2.0, 2.0]), ("energy", [1.5, 0.0])] {
+        let found = [bounds(directory, name)[1], bounds(directory, &format!("{name}_least"))[0]];
+        assert!(most <= found[0] && found[0] <= most + 1e-6, "{name}: {found:?}");
+        assert!(least - 1e-6 <= found[1] && found[1] <= least, "{name}: {found:?}");
+    }
+    let (_, text) = dynabs(directory, "dynabs-check", &["solve", "out", "-p", "energy"]);
+    assert!(text.contains("covered: a controller keeps the expected cost at or below 1.5"), "{text}");
+    let (_, text) =
+        dynabs(directory, "dynabs-check", &["solve", "out", "-p", "R{\"energy\"}maxmax=? [ C<=6 ]"]);
+    assert!(text.contains("not covered"), "{text}");
+    let (code, text) = dynabs(directory, "dynabs-check", &["diff", "out/model.dynabs", "out/model.tra"]);
+    assert_eq!(code, 0, "{text}");
+
+    // Of the steps of a group only costs of inputs have a bound.
+    let sampled = r#"{"gaussian": {"mean": [0], "covariance": [[0.001]]}, "count": 4000, "seed": 1}"#;
+    let grouped = model
+        .replace(r#""B": [[1]]"#, r#""B": [[1]], "group_steps": 2"#)
+        .replace(r#"{"components": [{"uniform": {"lower": -0.4, "upper": 0.4}}]}"#, sampled);
+    for (left_out, words) in
+        [("worth", "/costs/way/step: found a cost of the state"), ("way", "/costs/worth/discount")]
+    {
+        let costs = grouped.replace(&format!("\"{left_out}\": "), "\"x\": ");
+        let without = match left_out {
+            "worth" => costs.replace(r#", "discount": 0.9"#, ""),
+            _ => costs.replace("x1 - 2", "1"),
+        };
+        let (code, text) = compile(&without);
+        assert!(code == 2 && text.contains(words), "{text}");
+    }
+    let simple = grouped.replace("x1 - 2", "1").replace(r#", "discount": 0.9"#, "");
+    assert_eq!(compile(&simple).0, 0);
+    let found = bounds(directory, "time");
+    assert!(found[0] >= 2.0 && found[1] < 2.1, "{found:?}");
+}
+
 #[test]
 fn costs_that_make_no_sense_are_refused() {
     let scratch = TempDir::new().unwrap();
@@ -90,7 +141,7 @@ fn costs_that_make_no_sense_are_refused() {
         (r#"{"step": "1"}"#, r#"{"step": "1", "outside": -1}"#, 2, "/costs/time/outside: found -1"),
         (r#""discount": 0.9"#, r#""discount": 1"#, 2, "/costs/worth/discount: found 1"),
         (r#""time""#, r#""no name""#, 2, "expected a name of letters"),
-        (r#""actions": "inputs""#, r#""actions": "targets""#, 2, "only fields for actions \"targets\""),
+        (r#""actions": "inputs""#, r#""actions": "targets""#, 2, "found a choice of inputs"),
         (r#""horizon": 6"#, r#""type": "stay", "horizon": "infinite""#, 2, "a task that never ends"),
     ] {
         let mut text = WALK.replace(old, new);

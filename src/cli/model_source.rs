@@ -33,8 +33,16 @@ pub(super) struct LoadedModel {
 /// What the manifest of a run promises of the model that was read.
 struct Promise {
     guarantee: Guarantee,
+    /// What is asked about costs, in PRISM's syntax.
+    costs: Vec<String>,
     /// Whether the file that was read has raised lower bounds.
     raised: bool,
+}
+
+impl Promise {
+    fn new(manifest: Manifest, raised: bool) -> Self {
+        Self { guarantee: manifest.guarantee, costs: manifest.costs, raised }
+    }
 }
 
 impl LoadedModel {
@@ -63,9 +71,18 @@ impl LoadedModel {
         self.promise.as_ref().map(claim).transpose()
     }
 
-    /// What the value of an expression claims of the system of a run: nothing.
-    pub(super) fn no_claim(&self) -> Option<Claim> {
-        self.promise.as_ref().map(|promise| promise.guarantee.no_claim(&[Gap::Expression]))
+    /// What the value of an expression claims of the system of a run: nothing, unless it is what the run asks about a cost.
+    pub(super) fn claim_of_expression(&self, asked: &str, bounds: Option<[f64; 2]>) -> Option<Claim> {
+        let claim = |promise: &Promise| {
+            let unnamed = |text: &str| text.split_once(": ").map_or(text, |(_, own)| own).to_owned();
+            let is_own = promise.costs.iter().any(|cost| unnamed(cost) == unnamed(asked));
+            match bounds.filter(|_| is_own) {
+                Some(_) if promise.raised => promise.guarantee.no_claim(&[Gap::RaisedBounds]),
+                Some(bounds) => promise.guarantee.cost_claim(asked, bounds),
+                None => promise.guarantee.no_claim(&[Gap::Expression]),
+            }
+        };
+        self.promise.as_ref().map(claim)
     }
 
     /// What a certificate says about the files that the model was read from.
@@ -148,7 +165,7 @@ fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<Loade
     if native.exists() && !explicit {
         verify(&[NATIVE_MODEL, "model.props"])?;
         let mut loaded = load_file(&native, Format::Native, bars)?;
-        loaded.promise = manifest.map(|manifest| Promise { guarantee: manifest.guarantee, raised: false });
+        loaded.promise = manifest.map(|manifest| Promise::new(manifest, false));
         return Ok(loaded);
     }
     if !tra.exists() {
@@ -166,7 +183,7 @@ fn load_directory(directory: &Path, explicit: bool, bars: &Bars) -> Result<Loade
     let raised = manifest.as_ref().filter(raised);
     loaded.warnings.extend(raised.map(|manifest| raised_bounds(manifest, &loaded.model)));
     let raised = raised.is_some();
-    loaded.promise = manifest.map(|manifest| Promise { guarantee: manifest.guarantee, raised });
+    loaded.promise = manifest.map(|manifest| Promise::new(manifest, raised));
     Ok(loaded)
 }
 

@@ -201,6 +201,11 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
     phases.extend(&abstraction.phases);
     // Until here there is nothing to clean up, and nothing to print.
     bars.catch_interrupts();
+    if !arguments.prune {
+        abstraction = abstraction.with_costs(&problem)?;
+    } else if !problem.costs().is_empty() {
+        warn(compile_inputs::COSTS_LEFT_OUT);
+    }
     let mut results = Vec::new();
     let mut pruning = None;
     let mut solution = None;

@@ -5,7 +5,8 @@ use crate::pruning::pruned;
 use crate::resources::peak;
 use crate::summary::{memory, memory_json};
 use crate::{Bars, CliError, print, warn};
-use dynabs::abstraction::inputs::{CostError, InputAbstraction, InputEncoding, InputModel, InputsError};
+use dynabs::abstraction::CostError;
+use dynabs::abstraction::inputs::{InputAbstraction, InputEncoding, InputModel, InputsError};
 use dynabs::landing::FlatModelError;
 use dynabs::model_file::Document;
 use dynabs::problem::InputProblem;
@@ -156,21 +157,30 @@ fn export(
         FlatModelError::Model(_) => CliError::Failure(error.to_string()),
     })?;
     if wanted.prune && !problem.costs().is_empty() {
-        warn("warning: costs are left out: what --prune keeps is for the task\n");
+        warn(COSTS_LEFT_OUT);
     } else {
-        model = abstraction.with_costs(problem, model).map_err(|error| match error {
-            CostError::Reward(_) => CliError::Failure(error.to_string()),
-            CostError::MicroSteps { .. } => CliError::Input(format!(
-                "{error}\n  Use --encoding flat, and regions whose faces are faces of cells."
-            )),
-            _ => CliError::Input(error.to_string()),
-        })?;
+        model = abstraction.with_costs(problem, model)?;
     }
     let pruning = match wanted.prune {
         true => Some(pruned(&mut model.model, &model.properties[0], bars)?.1),
         false => None,
     };
     Ok(Some(Exported { model, pruning, time: start.elapsed() }))
+}
+
+/// What is said where a model is pruned that has costs.
+pub(super) const COSTS_LEFT_OUT: &str = "warning: costs are left out: what --prune keeps is for the task\n";
+
+impl From<CostError> for CliError {
+    fn from(error: CostError) -> Self {
+        match error {
+            CostError::Reward(_) => Self::Failure(error.to_string()),
+            CostError::MicroSteps { .. } => Self::Input(format!(
+                "{error}\n  Use --encoding flat, and regions whose faces are faces of cells."
+            )),
+            _ => Self::Input(error.to_string()),
+        }
+    }
 }
 
 /// A mistake in the file, or a machine too small.

@@ -148,7 +148,9 @@ fn solve(
             write_evaluation(arguments, loaded, compound, &mut evaluation)?;
             let mut result =
                 PropertyResult::of_evaluation(compound, &evaluation, &loaded.model, start.elapsed());
-            result.guarantee = loaded.no_claim();
+            let bounds =
+                result.recorded.lower.zip(result.recorded.upper).map(|(lower, upper)| [lower, upper]);
+            result.guarantee = loaded.claim_of_expression(&compound.to_string(), bounds);
             Ok(result)
         }
         Err(error) => Err(CliError::Input(error.to_string())),

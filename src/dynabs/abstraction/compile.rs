@@ -35,6 +35,8 @@ pub struct Abstraction {
     pub targets: Targets,
     /// The law that steers to them.
     pub law: FeedbackLaw,
+    /// What is asked about costs, in PRISM's syntax; nothing before they are rewards of the model.
+    pub costs: Vec<String>,
     /// What the intervals promise, which is nothing in `reference` mode.
     pub guarantee: Guarantee,
     /// How much memory was expected to be needed.
@@ -144,6 +146,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
         states,
         targets: enabling.targets,
         law: steering.law,
+        costs: vec![],
         guarantee: Guarantee { event: Event::of(problem), evidence },
         footprint,
         phases: clock.phases,
@@ -199,6 +202,7 @@ impl Abstraction {
             model,
             targets: enabling.targets,
             law: steering.law,
+            costs: vec![],
             guarantee,
             footprint,
             phases: clock.phases,

@@ -44,14 +44,33 @@ impl Guarantee {
             (Coverage::Upper, false) => format!("a controller keeps it at or below {upper}"),
             (Coverage::Upper, true) => format!("no controller with actions of the model exceeds {upper}"),
         };
+        Ok(self.claimed(&claimed))
+    }
+
+    /// What bounds on the answer to a question about costs claim, as the files of a run ask it: the least expected cost, with
+    /// minimising nature or with maximising one.
+    pub fn cost_claim(&self, question: &str, [lower, upper]: [f64; 2]) -> Claim {
+        let claimed = match question.contains("}minmin=") {
+            true => {
+                format!("no controller with actions of the model falls below {}", lower_bound_text(lower))
+            }
+            false => {
+                let upper = shortest_decimal(round_decimal_up(upper, 6));
+                format!("a controller keeps the expected cost at or below {upper}")
+            }
+        };
+        self.claimed(&claimed)
+    }
+
+    fn claimed(&self, claimed: &str) -> Claim {
         let confidence = self.confidence();
         let sure = confidence.map(shortest_decimal).unwrap_or_default();
-        Ok(Claim {
+        Claim {
             covered: true,
             confidence,
             text: format!("{claimed} on the system, with confidence {sure}"),
             caveat: self.caveat(),
-        })
+        }
     }
 
     /// Says why nothing is claimed.

@@ -60,7 +60,7 @@ pub(super) struct ModelFile {
     /// How probability intervals are computed from the samples.
     #[serde(default)]
     pub(super) probabilities: ProbabilitiesSpec,
-    /// For actions "inputs": what steps cost, by name; the model in files has them as rewards.
+    /// What steps cost, by name; the model in files has them as rewards.
     #[serde(default)]
     pub(super) costs: Named<CostSpec>,
 }

@@ -1,16 +1,15 @@
 //! From the fields of a model file to the parts of a problem whose actions are inputs.
 
 use super::fields::{
-    CostSpec, FeedbackSpec, IndependentSpec, LqrSpec, ModelFile, NoiseSpec, ProbabilitiesSpec, TargetsSpec,
+    FeedbackSpec, IndependentSpec, LqrSpec, ModelFile, NoiseSpec, ProbabilitiesSpec, TargetsSpec,
 };
 use super::given::given;
-use super::parts::{self, input_set, partition, probabilities};
+use super::parts::{self, costs, input_set, partition, probabilities};
 use super::set_fields::SetSpec;
 use super::task_parts::task;
 use crate::Diagnostic;
 use crate::problem::{
-    Components, CostParts, FeedbackChoice, InputChoice, InputNoiseParts, InputParts, InputSet, LqrWeights,
-    Probabilities,
+    Components, FeedbackChoice, InputChoice, InputNoiseParts, InputParts, InputSet, LqrWeights, Probabilities,
 };
 use std::path::Path;
 
@@ -51,13 +50,8 @@ pub(super) fn input_parts(file: ModelFile, directory: &Path) -> Result<InputPart
         noise,
         task: Some(task(file.task, file.regions, directory)?),
         initial_state: file.initial_state,
-        costs: file.costs.0.into_iter().map(cost).collect(),
+        costs: costs(file.costs),
     })
-}
-
-fn cost((name, spec): (String, CostSpec)) -> CostParts {
-    let CostSpec { step, outside, discount } = spec;
-    CostParts { name, step, outside, discount }
 }
 
 /// Known noise, or samples and what is asked of them.

@@ -2,16 +2,17 @@
 
 use super::dynamics::DynamicsSpec;
 use super::fields::{
-    GaussianSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec, SampleKindSpec, SamplesSpec, StabilizerSpec,
-    TargetsSpec,
+    CostSpec, GaussianSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec, SampleKindSpec, SamplesSpec,
+    StabilizerSpec, TargetsSpec,
 };
 use super::given::given;
+use super::named::Named;
 use super::set_fields::{GridSpec, SetSpec};
 use super::task_parts::task;
 use crate::Diagnostic;
 use crate::problem::{
-    DrawnNoise, Gain, GaussianNoise, InputSet, LinearDynamics, LowerLayer, LqrWeights, NoiseSource,
-    Partition, Probabilities, Problem, ProblemBuilder, SampleKind, SamplesFile, TargetChoice,
+    CostParts, DrawnNoise, Gain, GaussianNoise, InputSet, LinearDynamics, LowerLayer, LqrWeights,
+    NoiseSource, Partition, Probabilities, Problem, ProblemBuilder, SampleKind, SamplesFile, TargetChoice,
 };
 use std::path::Path;
 
@@ -24,10 +25,6 @@ pub(super) fn builder(file: ModelFile, directory: &Path) -> Result<ProblemBuilde
     if file.feedback.is_some() {
         let found = "a field for actions \"inputs\"";
         return Err(Diagnostic::at("/feedback", found, "only fields for actions \"targets\"").remedy(INPUTS));
-    }
-    if !file.costs.0.is_empty() {
-        let found = "a field for actions \"inputs\"";
-        return Err(Diagnostic::at("/costs", found, "only fields for actions \"targets\"").remedy(INPUTS));
     }
     let DynamicsSpec { a, b, q, group_steps, .. } = file.dynamics;
     let a = a.ok_or_else(|| missing("A").remedy(INPUTS))?;
@@ -47,6 +44,7 @@ pub(super) fn builder(file: ModelFile, directory: &Path) -> Result<ProblemBuilde
         .partition(partition(file.partition))
         .targets(targets(file.targets))
         .task(task(file.task, file.regions, directory)?)
+        .costs(costs(file.costs))
         .probabilities(probabilities(&file.probabilities)?)
         .noise(noise(file.noise, directory)?);
     if let Some(state) = file.initial_state {
@@ -56,6 +54,12 @@ pub(super) fn builder(file: ModelFile, directory: &Path) -> Result<ProblemBuilde
         builder = builder.lower_layer(lower_layer(stabilizer)?);
     }
     Ok(builder)
+}
+
+/// What steps cost.
+pub(super) fn costs(costs: Named<CostSpec>) -> Vec<CostParts> {
+    let cost = |(name, CostSpec { step, outside, discount })| CostParts { name, step, outside, discount };
+    costs.0.into_iter().map(cost).collect()
 }
 
 /// The way out if steering to targets cannot do something.

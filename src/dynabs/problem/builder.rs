@@ -1,15 +1,16 @@
 //! From parts to a problem: the checks that need several parts at once.
 
+use super::cost::require_apart;
 use super::grouping::Setting;
 pub(super) use super::problem::InitialState;
 use super::problem::Problem;
 use super::values::{name, vector};
 use super::{
-    Dynamics, GroupSteps, InputSet, LowerLayer, NoiseSource, Partition, Probabilities, TargetChoice, Task,
-    checked_task, dynamics, lower_layer, regions,
+    Cost, CostParts, Dynamics, GroupSteps, InputSet, LowerLayer, NoiseSource, Partition, Probabilities,
+    TargetChoice, Task, checked_task, dynamics, lower_layer, regions,
 };
 use crate::partition::Grid;
-use crate::system::group;
+use crate::system::{Variable, group};
 use crate::{Diagnostic, Warning};
 use imdp::numeric::to_f64;
 
@@ -26,6 +27,7 @@ pub struct ProblemBuilder {
     targets: TargetChoice,
     task: Option<Task>,
     initial_state: Option<Vec<f64>>,
+    costs: Vec<CostParts>,
     probabilities: Probabilities,
     noise: Option<NoiseSource>,
 }
@@ -49,6 +51,7 @@ impl ProblemBuilder {
             targets: TargetChoice::Centers,
             task: None,
             initial_state: None,
+            costs: vec![],
             probabilities: Probabilities::default(),
             noise: None,
         }
@@ -96,6 +99,12 @@ impl ProblemBuilder {
         self
     }
 
+    /// What steps cost, in the coordinates `x1, …` and `u1, …`; by default nothing.
+    pub fn costs(mut self, costs: Vec<CostParts>) -> Self {
+        self.costs = costs;
+        self
+    }
+
     /// How intervals are computed; by default so that all hold together with probability 0.99.
     pub fn probabilities(mut self, probabilities: Probabilities) -> Self {
         self.probabilities = probabilities;
@@ -120,6 +129,11 @@ impl ProblemBuilder {
         let mut group_steps = dynamics::group_steps(self.group_steps, &step_system)?;
         dynamics::require_short_numbers(&step_system, group_steps)?;
 
+        let (states, inputs) =
+            (Variable::numbered("x", n), Variable::numbered("u", step_system.input_dimension()));
+        let costs = self.costs.iter().map(|cost| cost.cost([&states, &inputs]));
+        let costs: Vec<Cost> = costs.collect::<Result<_, _>>()?;
+        require_apart(&costs)?;
         let grid = given(self.partition, "partition")?.grid("/partition", n)?;
         let actions = regions::actions("/targets", &self.targets, n)?;
         let wanted = given(self.task, "task")?;
@@ -179,6 +193,7 @@ impl ProblemBuilder {
             horizon: task.horizon,
             threshold: task.threshold,
             initial,
+            costs,
             probabilities: self.probabilities,
             noise,
             warnings,

@@ -2,7 +2,7 @@
 
 use crate::Diagnostic;
 use crate::system::expression::{Graph, Scope, Tape, parse};
-use crate::system::{Interval, Mode};
+use crate::system::{Interval, Variable};
 
 /// What a step costs, not yet checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,11 +39,11 @@ pub(super) fn require_apart(costs: &[Cost]) -> Result<(), Diagnostic> {
 }
 
 impl CostParts {
-    /// Checks the parts; `place` is the field's in a model file.
+    /// Checks the parts: an expression in these coordinates of state and input.
     ///
     /// # Errors
     /// A [`Diagnostic`] for the first mistake found.
-    pub(super) fn cost(&self, mode: &Mode) -> Result<Cost, Diagnostic> {
+    pub(super) fn cost(&self, coordinates: [&[Variable]; 2]) -> Result<Cost, Diagnostic> {
         let place = format!("/costs/{}", self.name);
         let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
         if !self.name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
@@ -53,7 +53,7 @@ impl CostParts {
             return Err(Diagnostic::at(place, "another name", expected));
         }
         let (mut graph, mut scope) = (Graph::default(), Scope::default());
-        for (number, variable) in (0..).zip(mode.states().iter().chain(mode.inputs())) {
+        for (number, variable) in (0..).zip(coordinates.into_iter().flatten()) {
             let node = graph.variable(number);
             scope.insert(&variable.name, node).map_err(|error| {
                 Diagnostic::at(&place, error.to_string(), "names of states and inputs that differ")

@@ -112,8 +112,9 @@ impl InputProblem {
         let noise = parts.noise.noise(n)?;
         let task = CheckedTask::new(&given(parts.task, "task")?, &grid, 1)?;
         let initial = parts.initial_state.map(|state| initial(state, &grid)).transpose()?;
+        let coordinates = [parts.mode.states(), parts.mode.inputs()];
         let costs: Vec<Cost> =
-            parts.costs.iter().map(|cost| cost.cost(&parts.mode)).collect::<Result<_, _>>()?;
+            parts.costs.iter().map(|cost| cost.cost(coordinates)).collect::<Result<_, _>>()?;
         require_apart(&costs)?;
         let mut warnings = task.warnings;
         warnings.extend(noise.samples().iter().flat_map(|samples| samples.noise.warnings.iter().cloned()));

@@ -1,6 +1,6 @@
 //! A control problem that is known to make sense.
 
-use super::{PlantNoise, Probabilities, SampledNoise, Stabilizer};
+use super::{Cost, PlantNoise, Probabilities, SampledNoise, Stabilizer};
 use crate::Warning;
 use crate::geometry::Polytope;
 use crate::noise::known::Distribution;
@@ -33,6 +33,7 @@ pub struct Problem {
     pub(super) horizon: Option<u64>,
     pub(super) threshold: Option<Probability>,
     pub(super) initial: Option<InitialState>,
+    pub(super) costs: Vec<Cost>,
     pub(super) probabilities: Probabilities,
     pub(super) noise: PlantNoise,
     pub(super) warnings: Vec<Warning>,
@@ -245,6 +246,11 @@ impl Problem {
     /// The cell of the initial state, if one was given.
     pub fn initial_cell(&self) -> Option<CellId> {
         self.initial.as_ref().map(|initial| initial.cell)
+    }
+
+    /// What steps cost.
+    pub fn costs(&self) -> &[Cost] {
+        &self.costs
     }
 
     /// What is known of the noise.

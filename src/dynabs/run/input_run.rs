@@ -176,6 +176,7 @@ impl Manifest {
             InputEncoding::Flat => Some("flat".into()),
         };
         self.property = exported.properties[0].to_string();
+        self.costs.clone_from(&exported.costs);
         if let Some(horizon) = &mut self.horizon {
             horizon.model_steps = horizon.original_steps.saturating_mul(exported.micro_steps);
         }

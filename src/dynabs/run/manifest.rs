@@ -63,6 +63,9 @@ pub struct Manifest {
     pub encoding: Option<String>,
     /// The task as a property.
     pub property: String,
+    /// What is asked about costs, in PRISM's syntax.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub costs: Vec<String>,
     /// The threshold asked for.
     pub threshold: Option<f64>,
     /// The initial state asked for.
@@ -170,6 +173,7 @@ impl Manifest {
             discretisation: None,
             encoding: None,
             property: abstraction.property.to_string(),
+            costs: abstraction.costs.clone(),
             threshold: problem.threshold().map(Probability::to_f64),
             initial_state: problem.initial_state().map(<[f64]>::to_vec),
             initial_model_state: problem.initial_cell().map(|cell| abstraction.state_of_cell[cell.index()]),
@@ -213,6 +217,7 @@ impl Manifest {
             discretisation: None,
             encoding: None,
             property: String::new(),
+            costs: vec![],
             threshold: None,
             initial_state: None,
             initial_model_state: None,

@@ -55,7 +55,10 @@ pub fn write_run(
     staging.write(NATIVE_MODEL, |out| native::write(model, out))?;
     let property = abstraction.property.to_string();
     write_solution(&mut staging, (NATIVE_MODEL, &property), options.solution)?;
-    staging.write("model.props", |out| writeln!(out, "{}", abstraction.property))?;
+    staging.write("model.props", |out| {
+        writeln!(out, "{}", abstraction.property)?;
+        abstraction.costs.iter().try_for_each(|question| writeln!(out, "{question}"))
+    })?;
     let samples = problem.noise().samples();
     let is_file = samples.and_then(SampledNoise::file).is_some();
     let value = self_contained(with_automaton(document.value.clone(), problem.objective()), is_file);

@@ -25,7 +25,6 @@ use crate::statistics::BudgetError;
 use crate::system::{ImageError, ImageMap, Lattice};
 use crate::task::CellTask;
 use crate::{Diagnostic, Warning};
-pub use costs::CostError;
 pub use export::{InputEncoding, InputModel};
 use imdp::numeric::Rational;
 use reach::Reach;
