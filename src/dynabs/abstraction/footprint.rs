@@ -1,5 +1,6 @@
 //! How much memory a compilation takes, known before it takes it.
 
+use super::hazards::Hazards;
 use super::steering::Steering;
 use super::targets::Targets;
 use crate::memory::{Need, TooLarge};
@@ -17,8 +18,11 @@ pub struct Footprint {
 /// Per target: how far it is from the goal, its counts, where its row starts.
 const TARGET_BYTES: u64 = 96;
 
-/// Per range of enabled actions: as they are found, put together, in a list that grows, and in two models.
-const RANGE_BYTES: u64 = 40;
+/// Per range of enabled actions: in a list that grows and becomes that of the model.
+const RANGE_BYTES: u64 = 12;
+
+/// The same for ranges of which some are left out because of what is unsafe in between: in two such lists.
+const FILTERED_RANGE_BYTES: u64 = 24;
 
 /// Per entry of a row, successor and bounds: in two models, and in the pieces that they are put together from.
 const ENTRY_BYTES: u64 = 60;
