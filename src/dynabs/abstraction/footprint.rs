@@ -50,10 +50,12 @@ impl Footprint {
         let (targets, memories) = (steering.targets.len() as u64, memories(problem));
         let need = |what, bytes, field| Need { what, bytes, field };
         let ranges = ranges(problem, steering).saturating_mul(memories);
+        let is_filtered = Hazards::in_between(problem).is_some();
+        let range_bytes = if is_filtered { FILTERED_RANGE_BYTES } else { RANGE_BYTES };
         let mut needs = vec![
             Need::of_cells(grid),
             need("the targets", targets * TARGET_BYTES, field),
-            need("the enabled actions", ranges.saturating_mul(RANGE_BYTES), field),
+            need("the enabled actions", ranges.saturating_mul(range_bytes), field),
         ];
         if memories > 1 {
             let bytes = memories.saturating_mul(u64::from(grid.num_cells())).saturating_mul(PAIR_BYTES);
