@@ -98,6 +98,7 @@ const MISTAKES: &[Mistake] = &[
     mistake(ONE_LAYER, "/dynamics/C=[[1]]", &["/dynamics/C", "unknown field `C`", "`A`"]),
     mistake(ONE_LAYER, "/dynamic={}", &["/dynamic", "unknown field `dynamic`"]),
     mistake(ONE_LAYER, "/name=7", &["/name", "7", "string"]),
+    mistake(ONE_LAYER, "/name=\"a\\n  satisfied\"", &["/name", "more than one line", "one line"]),
     mistake(ONE_LAYER, "/probabilities/confidence=1", &["/probabilities/confidence", "strictly between"]),
     mistake(ONE_LAYER, "/probabilities/beta=0.01", &["/probabilities", "both confidence and beta"]),
     mistake(ONE_LAYER, "/missing/field=1", &["/missing/field", "--set", "nothing at /missing"]),

@@ -34,7 +34,9 @@ impl From<RunDirectoryError> for CliError {
         match error {
             RunDirectoryError::Io { error, .. } if is_interruption(&error) => Self::Interrupted,
             RunDirectoryError::Io { .. } => Self::Failure(error.to_string()),
-            RunDirectoryError::Raced { .. } => Self::Failure(format!("{error}{}", remedy(&error))),
+            RunDirectoryError::Raced { .. } | RunDirectoryError::DiskFull { .. } => {
+                Self::Failure(format!("{error}{}", remedy(&error)))
+            }
             _ => Self::Input(format!("{error}{}", remedy(&error))),
         }
     }

@@ -3,6 +3,10 @@
 use super::{Bars, CliError, warn};
 use std::sync::{Arc, Mutex, PoisonError};
 
+/// How long a signal that no user sent from the keyboard waits for a clean end.
+#[cfg(unix)]
+const PATIENCE: std::time::Duration = std::time::Duration::from_secs(10);
+
 /// Who is asked to end cleanly; without anybody, the program ends at once.
 static LISTENER: Mutex<Option<Arc<Bars>>> = Mutex::new(None);
 
@@ -31,7 +35,20 @@ pub(crate) fn watch() -> Result<(), CliError> {
     let ending = [SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU];
     let wanted = ending.into_iter().filter(|&signal| !is_ignored(signal));
     let mut signals = signal_hook::iterator::Signals::new(wanted).map_err(failure)?;
-    let wait = move || signals.forever().for_each(|_| end());
+    let wait = move || {
+        for signal in signals.forever() {
+            ask();
+            // Who waits for a pipe that nobody reads does not notice that it is asked; at the keyboard one asks again.
+            if signal != SIGINT {
+                let patience = || {
+                    std::thread::sleep(PATIENCE);
+                    end();
+                };
+                // Without a thread for it, a second signal ends the program.
+                let _ = std::thread::Builder::new().name("patience".into()).spawn(patience);
+            }
+        }
+    };
     std::thread::Builder::new().name("signals".into()).spawn(wait).map_err(failure)?;
     Ok(())
 }
@@ -41,16 +58,22 @@ pub(crate) fn watch() -> Result<(), CliError> {
     Ok(())
 }
 
-/// Asks for a clean end, or ends the program.
+/// Asks for a clean end; if that was done before, ends the program.
 #[cfg(unix)]
-fn end() {
+fn ask() {
     let listener = LISTENER.lock().unwrap_or_else(PoisonError::into_inner).clone();
     let asked_before = listener.is_none_or(|bars| bars.interrupt());
     if asked_before {
-        imdp::files::abandon_all();
-        warn("error: interrupted\n");
-        std::process::exit(3);
+        end();
     }
+}
+
+/// Ends the program, and leaves nothing behind.
+#[cfg(unix)]
+fn end() {
+    imdp::files::abandon_all();
+    warn("error: interrupted\n");
+    std::process::exit(3);
 }
 
 /// Whether the program was started with a signal ignored, as `nohup` does.

@@ -54,7 +54,7 @@ fn signals_clean_up() {
     for signal in ["INT", "TERM", "HUP", "QUIT", "XCPU"] {
         let mut child = program("dynabs-compile")
             .arg(&model)
-            .args(["-q", "-o"])
+            .args(["-q", "--format", "prism", "-o"])
             .arg(scratch.path().join("run"))
             .stderr(Stdio::piped())
             .spawn()
@@ -77,4 +77,30 @@ fn signals_clean_up() {
         assert_eq!(names(scratch.path()), [""; 0], "{signal}");
     }
     fs::remove_dir_all(scratch.path()).unwrap();
+}
+
+/// A pipe that nobody reads is waited for, but not for ever once the program is asked to end: at the keyboard the second time.
+#[test]
+fn what_waits_for_a_reader_can_be_ended() {
+    let scratch = TempDir::new().unwrap();
+    compiled(scratch.path(), "run");
+    assert!(Command::new("mkfifo").arg(scratch.path().join("pipe")).status().unwrap().success());
+    for (signals, patience) in [(&["INT", "INT"][..], 60), (&["TERM"], 60)] {
+        let child = program("dynabs-check")
+            .current_dir(scratch.path())
+            .args(["solve", "run", "-q", "--values", "pipe"])
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_secs(2));
+        let start = Instant::now();
+        for signal in signals {
+            let pid = child.id().to_string();
+            assert!(Command::new("kill").args(["-s", signal, &pid]).status().unwrap().success());
+            std::thread::sleep(Duration::from_millis(300));
+        }
+        let ended: super::Ended = child.wait_with_output().unwrap().into();
+        assert_eq!(ended.code, Some(3), "{signals:?}: {}", ended.err);
+        assert!(start.elapsed() < Duration::from_secs(patience), "{signals:?}");
+    }
 }

@@ -85,6 +85,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
             print(&String::from_utf8_lossy(&script))?;
         }
         Command::Man { directory } => {
+            std::fs::create_dir_all(directory).map_err(|error| CliError::writing(directory, &error))?;
             clap_mangen::generate_to(Arguments::command(), directory)
                 .map_err(|error| CliError::writing(directory, &error))?;
         }

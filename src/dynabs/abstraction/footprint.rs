@@ -1,5 +1,6 @@
 //! How much memory a compilation takes, known before it takes it.
 
+use super::hazards::Hazards;
 use super::steering::Steering;
 use super::targets::Targets;
 use crate::memory::{Need, TooLarge};
@@ -17,8 +18,11 @@ pub struct Footprint {
 /// Per target: how far it is from the goal, its counts, where its row starts.
 const TARGET_BYTES: u64 = 96;
 
-/// Per range of enabled actions: as they are found, put together, in a list that grows, and in two models.
-const RANGE_BYTES: u64 = 40;
+/// Per range of enabled actions: in a list that grows and becomes that of the model.
+const RANGE_BYTES: u64 = 12;
+
+/// The same for ranges of which some are left out because of what is unsafe in between: in two such lists.
+const FILTERED_RANGE_BYTES: u64 = 24;
 
 /// Per entry of a row, successor and bounds: in two models, and in the pieces that they are put together from.
 const ENTRY_BYTES: u64 = 60;
@@ -46,10 +50,12 @@ impl Footprint {
         let (targets, memories) = (steering.targets.len() as u64, memories(problem));
         let need = |what, bytes, field| Need { what, bytes, field };
         let ranges = ranges(problem, steering).saturating_mul(memories);
+        let is_filtered = Hazards::in_between(problem).is_some();
+        let range_bytes = if is_filtered { FILTERED_RANGE_BYTES } else { RANGE_BYTES };
         let mut needs = vec![
             Need::of_cells(grid),
             need("the targets", targets * TARGET_BYTES, field),
-            need("the enabled actions", ranges.saturating_mul(RANGE_BYTES), field),
+            need("the enabled actions", ranges.saturating_mul(range_bytes), field),
         ];
         if memories > 1 {
             let bytes = memories.saturating_mul(u64::from(grid.num_cells())).saturating_mul(PAIR_BYTES);

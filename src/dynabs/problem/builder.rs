@@ -4,7 +4,7 @@ use super::cost::require_apart;
 use super::grouping::Setting;
 pub(super) use super::problem::InitialState;
 use super::problem::Problem;
-use super::values::vector;
+use super::values::{name, vector};
 use super::{
     Cost, CostParts, Dynamics, GroupSteps, InputSet, LowerLayer, NoiseSource, Partition, Probabilities,
     TargetChoice, Task, checked_task, dynamics, lower_layer, regions,
@@ -173,7 +173,7 @@ impl ProblemBuilder {
         warnings.extend(stabilizer.iter().flat_map(|s| s.warnings.iter().cloned()));
         warnings.extend(noise.samples().iter().flat_map(|samples| samples.warnings.iter().cloned()));
         Ok(Problem {
-            name: self.name,
+            name: name(self.name)?,
             step_system,
             step_input,
             group_steps,

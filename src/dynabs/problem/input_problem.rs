@@ -7,7 +7,7 @@ use super::input_noise::{InputNoise, InputNoiseParts};
 use super::problem::Objective;
 use super::regions::Partition;
 use super::task::Task;
-use super::values::{count, vector};
+use super::values::{count, name, vector};
 use super::{FeedbackChoice, InputSet};
 use crate::geometry::Polytope;
 use crate::partition::{CellId, CellLabels, Grid, Region};
@@ -123,7 +123,7 @@ impl InputProblem {
             warnings.push(Warning::UnusedInputs { unused, inputs: given_inputs });
         }
         Ok(Self {
-            name: parts.name,
+            name: name(parts.name)?,
             mode: parts.mode,
             periodic: parts.periodic,
             set,

@@ -71,3 +71,11 @@ pub(super) fn symmetric(
         }
     }
 }
+
+/// A name, which is shown in summaries: one line.
+pub(super) fn name(name: String) -> Result<String, Diagnostic> {
+    match name.contains(['\n', '\u{2028}', '\u{2029}']) {
+        true => Err(Diagnostic::at("/name", format!("{name:?}, more than one line"), "a name on one line")),
+        false => Ok(name),
+    }
+}

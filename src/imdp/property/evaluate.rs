@@ -75,8 +75,9 @@ fn label(name: &str, model: &IntervalMdp) -> Result<StateSet, PropertyError> {
         states.extend((0..model.num_states()).filter(is_deadlock));
         return Ok(states);
     }
-    let declared = model.labels().iter().map(|(label, _)| label).filter(|label| *label != "init");
-    let known: Vec<_> = ["init", "deadlock"].into_iter().chain(declared).map(str::to_owned).collect();
+    let always = ["init", "deadlock"];
+    let declared = model.labels().iter().map(|(label, _)| label).filter(|label| !always.contains(label));
+    let known: Vec<_> = always.into_iter().chain(declared).map(str::to_owned).collect();
     let closest = match model.variables().get(name) {
         Some(_) => Some(name.to_owned()),
         None => closest_name(name, &known).map(|label| format!("\"{label}\"")),

@@ -96,20 +96,41 @@ impl Runs {
         (j, number, position): (usize, usize, usize),
         visit: &mut impl FnMut(usize, usize, usize),
     ) {
+        let Some((number, position, length)) = self.along(ground, origin, (j, number, position)) else {
+            return;
+        };
+        match origin.len() - j {
+            1 => visit(number, position, length),
+            // The last dimension is the same for all cells of the one before: most of the work is here.
+            2 => {
+                let cells = ground.cells[j + 1] as usize;
+                let width = (self.hull.upper[j + 1] - self.hull.lower[j + 1]) as usize + 1;
+                let Some((first, start, run)) = self.along(ground, origin, (j + 1, 0, 0)) else { return };
+                for i in 0..length {
+                    visit((number + i) * cells + first, (position + i) * width + start, run);
+                }
+            }
+            _ => {
+                (0..length).for_each(|i| self.walk(ground, origin, (j + 1, number + i, position + i), visit))
+            }
+        }
+    }
+
+    /// The part of the box that lies in the grid along dimension `j`: the number and the position of its first cell, counted in
+    /// the dimensions up to this one, and how many cells there are.
+    fn along(
+        &self,
+        ground: &Ground,
+        origin: &[i32],
+        (j, number, position): (usize, usize, usize),
+    ) -> Option<(usize, usize, usize)> {
         let (lower, upper) = (self.hull.lower[j], self.hull.upper[j]);
         let first = lower.max(-origin[j]);
         let last = upper.min(ground.cells[j] - 1 - origin[j]);
-        if first > last {
-            return;
-        }
-        let number = number * ground.cells[j] as usize + (first + origin[j]) as usize;
-        let position = position * ((upper - lower) as usize + 1) + (first - lower) as usize;
-        let length = (last - first) as usize + 1;
-        if j + 1 == origin.len() {
-            return visit(number, position, length);
-        }
-        for i in 0..length {
-            self.walk(ground, origin, (j + 1, number + i, position + i), visit);
-        }
+        (first <= last).then(|| {
+            let number = number * ground.cells[j] as usize + (first + origin[j]) as usize;
+            let position = position * ((upper - lower) as usize + 1) + (first - lower) as usize;
+            (number, position, (last - first) as usize + 1)
+        })
     }
 }
