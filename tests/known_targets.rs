@@ -64,10 +64,10 @@ fn rows_enclose_the_true_masses() {
         let abstraction = compile(&problem, &()).unwrap();
         let buffer = &mut RowBuffer::default();
         let mut point = [0.0; 2];
-        for target in 0..abstraction.targets.len() {
+        for target in abstraction.targets.ids() {
             abstraction.targets.point(target, &mut point);
             let (cells, goal) = truth(&problem, &point);
-            let row = abstraction.model.rows().row(RowId(target as u32), buffer);
+            let row = abstraction.model.rows().row(RowId(target.0), buffer);
             let (mut listed, mut failed) = (0.0, 0.0);
             for (i, &successor) in row.successors.iter().enumerate() {
                 let (low, high) = (row.lower[i], row.upper[i]);
@@ -82,14 +82,14 @@ fn rows_enclose_the_true_masses() {
                 };
                 assert!(
                     low <= mass + 1e-11 && mass <= high + unlisted + 1e-11,
-                    "{target} {successor:?}: {low} {mass} {high}"
+                    "{target:?} {successor:?}: {low} {mass} {high}"
                 );
-                assert!(high - low < 1e-8, "{target} {successor:?}: {low} {high}");
+                assert!(high - low < 1e-8, "{target:?} {successor:?}: {low} {high}");
                 listed += mass;
             }
             assert!(
                 failed >= 1.0 - listed - 1e-9 && failed <= 1.0 - listed + 1e-8,
-                "{target}: {failed} {listed}"
+                "{target:?}: {failed} {listed}"
             );
         }
     }

@@ -3,7 +3,7 @@ use dynabs::abstraction::{Targets, demands, enabled_actions};
 use dynabs::geometry::Polytope;
 use dynabs::model_file::Document;
 use dynabs::partition::{CellId, Grid};
-use dynabs::problem::{Actions, Problem};
+use dynabs::problem::{Actions, Problem, TargetId};
 use dynabs::system::{Extent, FeedbackLaw};
 use imdp::numeric::to_f64;
 use nalgebra::{DMatrix, DVector};
@@ -64,7 +64,7 @@ fn check(problem: &Problem, seed: u64) -> usize {
         let (own, rest) = ranges.split_at(count as usize);
         ranges = rest;
         for target in own.iter().flat_map(|range| [range.first, range.last]) {
-            targets.point(target.index(), &mut point);
+            targets.point(TargetId(target.0), &mut point);
             let d = DVector::from_column_slice(&point);
             let x = state_in(grid, cell, &mut rng);
             let u: DVector<f64> = (&m * &d + &n * &x + &c).column(0).into();

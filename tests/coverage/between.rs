@@ -261,7 +261,7 @@ fn grid_cells() -> usize {
 /// The cell that the action of a row steers to the center of.
 fn target_cell(abstraction: &Abstraction, row: RowId) -> usize {
     let mut cell = [0; 2];
-    abstraction.targets.cell(row.index(), &mut cell);
+    abstraction.targets.cell(abstraction.target(row), &mut cell);
     (cell[0] * CELLS[1] as i32 + cell[1]) as usize
 }
 

@@ -76,7 +76,7 @@ pub fn replicate(layout: Layout, noise: Noise, (samples, beta): (usize, f64), se
 fn violations(problem: &Problem, abstraction: &Abstraction, truths: &[Truth], less: f64) -> [bool; 3] {
     let mut violated = [false; 3];
     for (id, row) in (0..).map(RowId).zip(abstraction.model.rows().to_stored().iter()) {
-        let truth = &truths[abstraction.target(id) as usize];
+        let truth = &truths[abstraction.target(id).index()];
         let probabilities = truth.over(&row, problem, abstraction, abstraction.memory(id));
         for (i, &state) in row.successors.iter().enumerate() {
             let (family, upper) = match state {
@@ -94,7 +94,7 @@ fn violations(problem: &Problem, abstraction: &Abstraction, truths: &[Truth], le
 /// Whether some two-sided interval at level `β` of its own excludes the probability of a cell.
 fn one_by_one(problem: &Problem, abstraction: &Abstraction, truths: &[Truth], beta: f64) -> bool {
     let samples = problem.noise().samples().unwrap().samples.len() as u64;
-    truths.iter().enumerate().any(|(target, truth)| {
+    truths.iter().zip(abstraction.targets.ids()).any(|(truth, target)| {
         let mut point = [0.0; 2];
         abstraction.targets.point(target, &mut point);
         counts(problem, point).iter().zip(&truth.cells).any(|(&k, &p)| {

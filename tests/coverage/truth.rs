@@ -73,7 +73,7 @@ pub struct Truth {
 impl Truth {
     /// The truth about every action.
     pub fn of_actions(problem: &Problem, abstraction: &Abstraction, noise: Noise) -> Vec<Self> {
-        (0..abstraction.targets.len())
+        (abstraction.targets.ids())
             .map(|target| {
                 let mut point = [0.0; 2];
                 abstraction.targets.point(target, &mut point);
@@ -129,7 +129,7 @@ pub fn satisfaction(
             let row = policy.row(model.choices(), StateId::from_index(state), elapsed)?;
             let memory = abstraction.memory(row);
             let value = |cell| values[abstraction.arrival(problem, Some(memory), CellId(cell)).index()];
-            let cells = truths[abstraction.target(row) as usize].cells.iter();
+            let cells = truths[abstraction.target(row).index()].cells.iter();
             Some((0..).zip(cells).map(|(cell, p)| p * value(cell)).sum())
         };
         values = (0..values.len())

@@ -248,10 +248,10 @@ fn a_proof_is_about_what_it_says() {
     other_states.states = 3;
     let renamed = Derivation { expression: "Rmaxmax=? [ F".to_owned(), ..honest.clone() };
     for (forged, why) in [
-        (missing, "a proof is missing"),
-        (too_many, "1 proofs are left over"),
+        (missing, "found fewer proofs than operators"),
+        (too_many, "found 1 proofs more than operators"),
         (other, "something else"),
-        (other_states, "the model has 2 states"),
+        (other_states, "found 2 states in the model"),
         (renamed, "unexpected end"),
     ] {
         let rejection = check_derivation(&forged, &model, &files()).unwrap_err().to_string();

@@ -7,6 +7,7 @@ use super::targets::{Alignment, Targets};
 use super::windows::Windows;
 use crate::noise::NoiseSamples;
 use crate::partition::Grid;
+use crate::problem::TargetId;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -125,7 +126,7 @@ impl<'a> ActionCounts<'a> {
     pub(super) fn of(
         &self,
         targets: &Targets,
-        target: usize,
+        target: TargetId,
         grid: &Grid,
         origin: &mut [i32],
     ) -> (Cow<'_, CellCounts>, Cow<'_, [CellBox]>) {
@@ -162,7 +163,7 @@ impl<'a> ActionCounts<'a> {
     }
 
     /// The coordinates of an action's target in its landing: whatever the samples.
-    pub(super) fn target_cell(&self, targets: &Targets, target: usize) -> Vec<i32> {
+    pub(super) fn target_cell(&self, targets: &Targets, target: TargetId) -> Vec<i32> {
         let mut cell = vec![0; targets.dimension()];
         if let TargetPlacements::PerTarget { .. } = self.placements {
             targets.cell(target, &mut cell);
@@ -170,7 +171,7 @@ impl<'a> ActionCounts<'a> {
         cell
     }
 
-    fn placement(&self, targets: &Targets, target: usize, grid: &Grid) -> Cow<'_, Placement> {
+    fn placement(&self, targets: &Targets, target: TargetId, grid: &Grid) -> Cow<'_, Placement> {
         match &self.placements {
             TargetPlacements::Shared { placement, .. } => Cow::Borrowed(placement),
             TargetPlacements::PerTarget { tolerance } => {
@@ -186,7 +187,8 @@ impl<'a> ActionCounts<'a> {
         if let Some(landing) = &self.shared {
             return landing.counts().iter().copied().collect();
         }
-        let of_target = |target| {
+        let of_target = |place| {
+            let target = TargetId::from_index(place);
             let (landing, _) = self.of(targets, target, grid, &mut vec![0; grid.dimension()]);
             landing.counts().iter().copied().collect::<BTreeSet<_>>()
         };

@@ -124,7 +124,7 @@ impl Step {
         let image = steering.law.partial_image(problem.step_system(), i, &steering.extent);
         let mut by_target = Vec::with_capacity(targets.len() * n);
         let mut point = vec![0.0; n];
-        for target in 0..targets.len() {
+        for target in targets.ids() {
             targets.point(target, &mut point);
             by_target.extend(
                 (0..n)

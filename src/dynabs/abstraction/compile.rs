@@ -10,7 +10,7 @@ use super::{AbstractionError, Footprint, known, reference};
 use crate::Warning;
 use crate::guarantee::{Event, Evidence, Guarantee};
 use crate::partition::{CellId, CellKind, Grid};
-use crate::problem::{Knowledge, Problem};
+use crate::problem::{Knowledge, Problem, TargetId};
 use crate::system::FeedbackLaw;
 use crate::task::{Aim, Memory};
 use imdp::model::{
@@ -231,13 +231,13 @@ impl Abstraction {
 
     /// The memory with which the action of a row is taken.
     pub fn memory(&self, row: RowId) -> Memory {
-        let layer = row.index() / self.targets.len().max(1);
+        let (layer, _) = self.targets.of_row(row);
         self.states.memories().get(layer).copied().unwrap_or_default()
     }
 
     /// The target that the action of a row steers to.
-    pub fn target(&self, row: RowId) -> u32 {
-        (row.index() % self.targets.len().max(1)) as u32
+    pub fn target(&self, row: RowId) -> TargetId {
+        self.targets.of_row(row).1
     }
 }
 

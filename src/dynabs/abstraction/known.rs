@@ -20,7 +20,7 @@ use super::{AbstractionError, CellBox};
 use crate::noise::known::Distribution;
 use crate::partition::GridAxis;
 use crate::problem::Problem;
-use imdp::model::{RowBuffer, RowSet};
+use imdp::model::{RowBuffer, RowId, RowSet};
 use imdp::numeric::{Rational, from_dyadic, round_decimal_down, round_decimal_up};
 use imdp::progress::Progress;
 use num_traits::{One, Zero};
@@ -59,9 +59,9 @@ pub(super) fn build(
             let counts = |ground| [FAILED, REACHED].map(|state| BoxCount::new(ground, |own| own == state));
             let special: Vec<[BoxCount; 2]> = grounds.iter().map(counts).collect();
             let stencils: Arc<[Stencil]> = Arc::new([stencil]);
-            let choose = |origin: &mut Vec<i32>, row: usize| {
-                let memory = row / targets.len();
-                grounds[memory].origin(row % targets.len(), origin);
+            let choose = |origin: &mut Vec<i32>, row: RowId| {
+                let (memory, target) = targets.of_row(row);
+                grounds[memory].origin(target, origin);
                 progress.advance(1);
                 chosen(&grounds[memory], &stencils[0], origin, &special[memory])
             };
@@ -70,7 +70,8 @@ pub(super) fn build(
         }
         None => {
             let rows = build_rows(count, progress, |row, rows| {
-                let (ground, target) = (&grounds[row / targets.len()], row % targets.len());
+                let (memory, target) = targets.of_row(RowId::from_index(row));
+                let ground = &grounds[memory];
                 let mut point = vec![0.0; grid.dimension()];
                 targets.point(target, &mut point);
                 let along = |j: usize| {

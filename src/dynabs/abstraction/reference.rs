@@ -14,9 +14,9 @@ use super::states::StateSpace;
 use super::stencil::{Chosen, Ground, Runs, Special, Stencil, StencilRows};
 use super::targets::Targets;
 use crate::memory::TooLarge;
-use crate::problem::{Problem, SampledNoise};
+use crate::problem::{Problem, SampledNoise, TargetId};
 use crate::statistics::ReferenceIntervals;
-use imdp::model::{RowBuffer, RowSet};
+use imdp::model::{RowBuffer, RowId, RowSet};
 use imdp::progress::Progress;
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -43,7 +43,8 @@ pub(super) fn build(
         let (landing, _) = landings.of(targets, target, grid, &mut vec![0; grid.dimension()]);
         Hits::new(landing, &ground)
     };
-    let inside = |origin: &mut Vec<i32>, target| {
+    let inside = |origin: &mut Vec<i32>, place| {
+        let target = TargetId::from_index(place);
         ground.origin(target, origin);
         match &hits {
             Some(hits) => hits.inside(&ground, origin),
@@ -56,13 +57,15 @@ pub(super) fn build(
     let of_cells = landings.distinct_counts(targets, grid);
     let of_cells = CountTable::new(of_cells.iter().map(|count| count.certain[0]), |k| intervals.of_cell(k));
     let of_outside = CountTable::new(inside.iter().map(|(samples, _)| *samples), |k| intervals.of_outside(k));
-    let special = |target: usize| Special { first: of_outside.get(inside[target].0), reached: None };
+    let special =
+        |target: TargetId| Special { first: of_outside.get(inside[target.index()].0), reached: None };
     let Some(hits) = hits else {
-        return Ok(build_rows(targets.len(), progress, |target, rows| {
+        return Ok(build_rows(targets.len(), progress, |row, rows| {
+            let (_, target) = targets.of_row(RowId::from_index(row));
             let RowBuffer { mut entries, mut coordinates } = RowBuffer::default();
             ground.origin(target, &mut coordinates);
             let stencil = of_target(target).stencil(&ground, special(target).first, &of_cells);
-            let of_row = (special(target), 1 + inside[target].1 as usize);
+            let of_row = (special(target), 1 + inside[target.index()].1 as usize);
             rows.push_row(stencil.row(&ground, &coordinates, of_row, &mut entries));
         })
         .into());
@@ -70,9 +73,10 @@ pub(super) fn build(
     // Where the whole stencil is in the grid.
     let most = inside.iter().map(|(samples, _)| *samples).max().unwrap_or_default();
     let stencil: Arc<[Stencil]> = Arc::new([hits.stencil(&ground, of_outside.get(most), &of_cells)]);
-    let choose = |(): &mut (), target: usize| {
+    let choose = |(): &mut (), row: RowId| {
+        let (_, target) = targets.of_row(row);
         progress.advance(1);
-        Chosen { stencil: 0, special: special(target), length: 1 + inside[target].1 }
+        Chosen { stencil: 0, special: special(target), length: 1 + inside[target.index()].1 }
     };
     Ok(StencilRows::new(Arc::new([ground]), stencil, targets.len(), || (), choose).into())
 }

@@ -76,7 +76,7 @@ impl Rooms {
         distinct.dedup();
         let number = |room: &Room| distinct.partition_point(|other| other < room);
         let of_copy = rows.iter().map(|(_, room)| number(room)).collect();
-        let again = rows.iter().map(|(target, _)| target.0).collect();
+        let again = rows.iter().map(|(row, _)| targets.of_row(*row).1).collect();
         let row_of = |target, room| {
             let copy = rows.partition_point(|&other| other < (target, room));
             RowId::from_index(targets.len() + copy)

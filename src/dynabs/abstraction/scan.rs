@@ -220,13 +220,13 @@ impl<'a> Scan<'a> {
 
     fn list(&self, targets: &Targets, slack: &[f64], found: &mut Found<'_>) {
         let mut point = vec![0.0; targets.dimension()];
-        for target in 0..targets.len() {
+        for target in targets.ids() {
             targets.point(target, &mut point);
             let enabled = self.constraints.iter().zip(slack).all(|(constraint, &slack)| {
                 constraint.target.iter().zip(&point).fold(slack, |rest, (alpha, x)| rest - alpha * x) >= 0.0
             });
             if enabled {
-                found.push(target, target);
+                found.push(target.index(), target.index());
             }
         }
     }

@@ -10,7 +10,7 @@
 use super::compile::Abstraction;
 use super::costs::{CostError, Priced, questions};
 use crate::partition::CellId;
-use crate::problem::{Cost, Knowledge, Problem};
+use crate::problem::{Cost, Knowledge, Problem, TargetId};
 use crate::system::{FeedbackLaw, Interval};
 use imdp::model::{RewardStructure, StateId, require_memory};
 use nalgebra::DMatrix;
@@ -76,7 +76,7 @@ impl Abstraction {
             let by_state = inputs.by_state(&x);
             for (choice, row) in (first_choices[state.index()] as usize..).zip(choices.rows(state)) {
                 let target = self.target(row);
-                let range = costs.of_group(cell, target, &x, &inputs.of(target as usize, &by_state))?;
+                let range = costs.of_group(cell, target, &x, &inputs.of(target, &by_state))?;
                 priced.set(choice, range).ok_or_else(|| costs.unbounded(cell, target))?;
             }
         }
@@ -101,7 +101,7 @@ impl StepCosts<'_> {
     fn of_group(
         &mut self,
         cell: CellId,
-        target: u32,
+        target: TargetId,
         x: &[Interval],
         u: &[Interval],
     ) -> Result<(f64, f64), CostError> {
@@ -129,8 +129,8 @@ impl StepCosts<'_> {
         Ok((least, greatest))
     }
 
-    fn unbounded(&self, cell: CellId, target: u32) -> CostError {
-        let (name, action) = (self.cost.name().to_owned(), format!("target {target}"));
+    fn unbounded(&self, cell: CellId, target: TargetId) -> CostError {
+        let (name, action) = (self.cost.name().to_owned(), format!("target {}", target.0));
         CostError::Unbounded { name, cell: cell.0, action }
     }
 }
@@ -149,7 +149,7 @@ impl InputBoxes {
         let (gain, constant) = (law.target_gain(), law.constant());
         let mut point = vec![0.0; abstraction.targets.dimension()];
         let mut of_targets = Vec::with_capacity(abstraction.targets.len() * gain.nrows());
-        for target in 0..abstraction.targets.len() {
+        for target in abstraction.targets.ids() {
             abstraction.targets.point(target, &mut point);
             of_targets.extend((0..gain.nrows()).map(|i| {
                 let terms = point
@@ -172,9 +172,9 @@ impl InputBoxes {
     }
 
     /// The box of inputs that steer to a target.
-    fn of(&self, target: usize, by_state: &[Interval]) -> Vec<Interval> {
+    fn of(&self, target: TargetId, by_state: &[Interval]) -> Vec<Interval> {
         let (rows, n) = self.state_gain.shape();
-        let starts = &self.of_targets[target * rows..(target + 1) * rows];
+        let starts = &self.of_targets[target.index() * rows..][..rows];
         let sum =
             |(&start, terms): (&Interval, &[Interval])| terms.iter().fold(start, |sum, &term| sum + term);
         starts.iter().zip(by_state.chunks_exact(n)).map(sum).collect()

@@ -1,7 +1,8 @@
 //! The points that actions steer to.
 
 use crate::partition::{Grid, GridAxis};
-use crate::problem::TargetPoints;
+use crate::problem::{TargetId, TargetPoints};
+use imdp::model::RowId;
 use imdp::numeric::{Rational, to_f64};
 use num_traits::ToPrimitive;
 
@@ -11,7 +12,7 @@ pub struct Targets {
     dimension: usize,
     layout: Layout,
     /// Targets that stand there again, after all others: with a row of their own.
-    again: Vec<u32>,
+    again: Vec<TargetId>,
 }
 
 #[derive(Clone, Debug)]
@@ -58,14 +59,30 @@ impl Targets {
     }
 
     /// These targets and, after them, some of them again.
-    pub(super) fn standing_again(&self, again: Vec<u32>) -> Self {
+    pub(super) fn standing_again(&self, again: Vec<TargetId>) -> Self {
         Self { again, ..self.clone() }
     }
 
     /// The target that a number stands for: itself, but for targets that stand there again.
-    pub(super) fn original(&self, target: usize) -> usize {
-        let copy = target.checked_sub(self.num_originals());
-        copy.map_or(target, |copy| self.again[copy] as usize)
+    pub(super) fn original(&self, target: TargetId) -> TargetId {
+        self.copy(target).map_or(target, |copy| self.again[copy])
+    }
+
+    /// The how manieth of those that stand there again it is, if it is one.
+    pub(super) fn copy(&self, target: TargetId) -> Option<usize> {
+        target.index().checked_sub(self.num_originals())
+    }
+
+    /// All of them, ascending.
+    pub fn ids(&self) -> impl ExactSizeIterator<Item = TargetId> + use<> {
+        (0..self.len() as u32).map(TargetId)
+    }
+
+    /// What a row is for if there is one for every memory and target, memory after memory: the place of the memory, and the
+    /// target.
+    pub(super) fn of_row(&self, row: RowId) -> (usize, TargetId) {
+        let targets = self.len().max(1);
+        (row.index() / targets, TargetId::from_index(row.index() % targets))
     }
 
     /// The number of different targets.
@@ -116,8 +133,8 @@ impl Targets {
     }
 
     /// Writes the coordinates of a target into `point`.
-    pub fn point(&self, target: usize, point: &mut [f64]) {
-        let target = self.original(target);
+    pub fn point(&self, target: TargetId, point: &mut [f64]) {
+        let target = self.original(target).index();
         match &self.layout {
             Layout::Lattice { axes, .. } => {
                 let mut rest = target;
@@ -135,8 +152,8 @@ impl Targets {
     /// Writes the coordinates of the cell that contains a target into `cell`: decided exactly, whatever the samples.
     ///
     /// −1 and the number of cells stand for what lies below and above the partition.
-    pub fn cell(&self, target: usize, cell: &mut [i32]) {
-        let target = self.original(target);
+    pub fn cell(&self, target: TargetId, cell: &mut [i32]) {
+        let target = self.original(target).index();
         match &self.layout {
             Layout::Lattice { cells, .. } => {
                 let mut rest = target;
@@ -201,12 +218,12 @@ mod tests {
         let targets = Targets::new(&TargetPoints::Centers, &grid);
         assert_eq!(targets.len(), 6);
         let mut point = [0.0; 2];
-        targets.point(4, &mut point);
+        targets.point(TargetId(4), &mut point);
         assert_eq!(point, [0.5, 1.5]);
         let alignment = targets.alignment().unwrap();
         assert!(alignment.iter().all(|a| a.stride == 1 && a.phase == Rational::new(1.into(), 2.into())));
         let mut cell = [0; 2];
-        targets.cell(4, &mut cell);
+        targets.cell(TargetId(4), &mut cell);
         assert_eq!(cell, [1, 1]);
     }
 
@@ -218,7 +235,7 @@ mod tests {
         let points = [-0.2, -0.200_000_001, 1.0, -3.5].map(|x| exact(&[x]));
         let targets = Targets::new(&TargetPoints::List(points.to_vec()), &grid);
         let mut cell = [0];
-        for (target, expected) in [8, 7, 11, -1].into_iter().enumerate() {
+        for (target, expected) in targets.ids().zip([8, 7, 11, -1]) {
             targets.cell(target, &mut cell);
             assert_eq!(cell, [expected]);
         }

@@ -251,6 +251,6 @@ impl Controller {
 fn points(targets: &Targets) -> Vec<f64> {
     let n = targets.dimension();
     let mut points = vec![0.0; targets.len() * n];
-    points.chunks_exact_mut(n).enumerate().for_each(|(target, point)| targets.point(target, point));
+    points.chunks_exact_mut(n).zip(targets.ids()).for_each(|(point, target)| targets.point(target, point));
     points
 }

@@ -29,7 +29,8 @@ impl Schedule {
         let (task, cells) = (problem.cell_task(), problem.grid().num_cells());
         let choices = abstraction.model.choices();
         // States that merge cells have no choices, so every entry is of one cell.
-        let action = |state, choice| choices.row_of_choice(state, choice).map(|row| abstraction.target(row));
+        let action =
+            |state, choice| choices.row_of_choice(state, choice).map(|row| abstraction.target(row).0);
         let mut schedule = Self { starts: vec![0], entries: vec![] };
         for memory in 0..task.memories() {
             for cell in (0..cells).map(CellId) {

@@ -19,7 +19,7 @@ impl Reach {
     pub(super) fn new(problem: &Problem, abstraction: &Abstraction, start: CellId) -> Self {
         let lookup = CellLookup::new(problem.grid());
         let mut point = vec![0.0; problem.grid().dimension()];
-        let cell_of_target: Vec<Option<CellId>> = (0..abstraction.targets.len())
+        let cell_of_target: Vec<Option<CellId>> = (abstraction.targets.ids())
             .map(|target| {
                 abstraction.targets.point(target, &mut point);
                 lookup.locate(&point)
@@ -39,7 +39,7 @@ impl Reach {
             for state in front {
                 let memory = abstraction.pair(state).map(|(memory, _)| memory);
                 for row in choices.rows(state) {
-                    let target = abstraction.target(row) as usize;
+                    let target = abstraction.target(row).index();
                     let Some(cell) = cell_of_target.get(target).copied().flatten() else { continue };
                     let end = abstraction.arrival(problem, memory, cell);
                     if std::mem::replace(&mut seen[end.index()], true) {

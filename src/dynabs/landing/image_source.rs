@@ -18,7 +18,7 @@ pub trait ImageSource: Sync {
 pub enum LandingError {
     /// The lattice has too many points.
     #[error(
-        "a lattice of {points} sub-cells in which images and noise land is too fine; at most {}",
+        "found a lattice of {points} sub-cells in which images and noise land; expected at most {}",
         u32::MAX - 1
     )]
     TooFine {

@@ -1,6 +1,6 @@
 //! How many steps should become one, if that is not said: what each number of steps could do, in doubles.
 
-use super::{Actions, TargetPoints};
+use super::{Actions, TargetId, TargetPoints};
 use crate::geometry::Polytope;
 use crate::partition::{CellId, CellKind, CellLabels, Grid};
 use crate::system::{GroupingTrial, LinearSystem, rough_right_inverse};
@@ -78,7 +78,8 @@ impl Setting<'_> {
     }
 
     fn meets_goal(&self, law: &RoughLaw, targets: &Points<'_>) -> bool {
-        let in_goal: Vec<u32> = (0..targets.len())
+        let in_goal: Vec<TargetId> = (0..targets.len())
+            .map(TargetId)
             .filter(|&target| {
                 targets.cell(target).is_some_and(|cell| self.labels.kind(cell) == CellKind::Goal)
             })
@@ -184,36 +185,36 @@ impl<'a> Points<'a> {
         }
     }
 
-    fn point(&self, target: u32) -> DVector<f64> {
+    fn point(&self, target: TargetId) -> DVector<f64> {
         match self.points {
-            TargetPoints::Centers => center(self.grid, CellId(target)),
-            TargetPoints::Grid(grid) => center(grid, CellId(target)),
+            TargetPoints::Centers => center(self.grid, CellId(target.0)),
+            TargetPoints::Grid(grid) => center(grid, CellId(target.0)),
             TargetPoints::List(points) => DVector::from_iterator(
-                points[target as usize].len(),
-                points[target as usize].iter().map(to_f64),
+                points[target.index()].len(),
+                points[target.index()].iter().map(to_f64),
             ),
         }
     }
 
     /// All targets if they are few, else those nearest to `x`.
-    fn near(&self, x: &DVector<f64>) -> Vec<u32> {
-        let nearest = |grid: &Grid| around(grid, x).into_iter().map(|cell| cell.0).collect();
+    fn near(&self, x: &DVector<f64>) -> Vec<TargetId> {
+        let nearest = |grid: &Grid| around(grid, x).into_iter().map(|cell| TargetId(cell.0)).collect();
         match self.points {
             TargetPoints::Centers if self.len() > FEW_TARGETS => nearest(self.grid),
             TargetPoints::Grid(grid) if self.len() > FEW_TARGETS => nearest(grid),
-            _ => (0..self.len()).collect(),
+            _ => (0..self.len()).map(TargetId).collect(),
         }
     }
 
     /// The cell that a target is in.
-    fn cell(&self, target: u32) -> Option<CellId> {
+    fn cell(&self, target: TargetId) -> Option<CellId> {
         match self.points {
-            TargetPoints::Centers => Some(CellId(target)),
+            TargetPoints::Centers => Some(CellId(target.0)),
             TargetPoints::Grid(grid) => {
-                let centers = grid.axes().iter().zip(grid.coordinates(CellId(target)));
+                let centers = grid.axes().iter().zip(grid.coordinates(CellId(target.0)));
                 self.grid.locate(&centers.map(|(axis, i)| axis.center(i)).collect::<Vec<_>>())
             }
-            TargetPoints::List(points) => self.grid.locate(&points[target as usize]),
+            TargetPoints::List(points) => self.grid.locate(&points[target.index()]),
         }
     }
 }

@@ -43,6 +43,7 @@ mod probabilities;
 #[expect(clippy::module_inception, reason = "the file of the type is called after it, as everywhere")]
 mod problem;
 mod regions;
+mod target_id;
 mod task;
 mod values;
 
@@ -63,4 +64,5 @@ pub use noise::{
 pub use probabilities::Probabilities;
 pub use problem::{Actions, Knowledge, Objective, Problem, TargetPoints};
 pub use regions::{Partition, RegionBox, RegionParts, ShapeParts, TargetChoice};
+pub use target_id::TargetId;
 pub use task::{Hazard, Horizon, Leg, Logic, Task, Wanted};

@@ -174,7 +174,7 @@ fn ranges(material: &Material<'_>) -> Option<Value> {
     (starts[starts.len() - 1] as usize <= MOST_RANGES).then(|| {
         json!({
             "starts": packed(starts.iter().copied()),
-            "first": packed(all().map(|range| abstraction.target(range.first))),
+            "first": packed(all().map(|range| abstraction.target(range.first).0)),
             "length": packed(all().map(|range| range.len() as u32)),
         })
     })

@@ -48,7 +48,7 @@ pub enum WriteError {
     },
     /// It is beyond what PRISM reads.
     #[error(
-        "the model has {states} states, {choices} choices and {transitions} transitions; expected at most {MAX_COUNT} of \
+        "found {states} states, {choices} choices and {transitions} transitions; expected at most {MAX_COUNT} of \
          each, which is what PRISM reads"
     )]
     TooLargeForPrism {
@@ -64,7 +64,7 @@ pub enum WriteError {
     Memory(#[from] MemoryError),
     /// It has a bound that the format cannot express.
     #[error(
-        "a bound of successor {successor} in row {row} is {bound}, which {format} cannot hold: it has {holds}; write \
+        "found the bound {bound} of successor {successor} in row {row}, which {format} cannot hold; expected {holds}; write \
          {instead}, which keeps the number"
     )]
     Bound {

@@ -49,7 +49,9 @@ pub enum PruneError {
     #[error(transparent)]
     Answer(#[from] AnswerError),
     /// The computation was stopped before its policy was optimal.
-    #[error("the computation ended early ({status}), so it is not known which actions matter")]
+    #[error(
+        "found a computation that ended early ({status}); expected its end, to know which actions matter"
+    )]
     Unfinished {
         /// How it ended.
         status: Status,

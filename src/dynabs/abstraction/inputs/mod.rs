@@ -5,6 +5,7 @@
 
 mod correlated;
 mod costs;
+mod error;
 mod export;
 mod leaving;
 mod reach;
@@ -15,16 +16,16 @@ mod sampled_tests;
 mod tables;
 
 use super::Footprint;
+use crate::Warning;
 use crate::guarantee::Evidence;
-use crate::landing::{Axis, Images, Landing, LandingError, Layout, Question, Stencil, Taps, occurring};
-use crate::memory::{Need, TooLarge};
+use crate::landing::{Axis, Images, Landing, Layout, Question, Stencil, Taps, occurring};
+use crate::memory::Need;
 use crate::noise::known::Distribution;
-use crate::partition::{CellId, CellKind, GridError};
+use crate::partition::{CellId, CellKind};
 use crate::problem::{InputNoise, InputProblem};
-use crate::statistics::BudgetError;
-use crate::system::{ImageError, ImageMap, Lattice};
+use crate::system::{ImageMap, Lattice};
 use crate::task::CellTask;
-use crate::{Diagnostic, Warning};
+pub use error::InputsError;
 pub use export::{InputEncoding, InputModel};
 use imdp::numeric::Rational;
 use reach::Reach;
@@ -57,50 +58,6 @@ pub struct InputAbstraction {
     pub footprint: Footprint,
     /// How long each phase took.
     pub phases: Vec<(&'static str, Duration)>,
-}
-
-/// Why there is no abstraction.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum InputsError {
-    /// The dynamics are undefined somewhere.
-    #[error("{error}\n  {remedy}", error = .0, remedy = ImageError::REMEDY)]
-    Image(Box<ImageError>),
-    /// The lattice or the list of images is too large.
-    #[error("{0}\n  Use fewer cells or inputs, or a coarser /partition/resolution.")]
-    Landing(#[from] LandingError),
-    /// The machine is too small.
-    #[error("{}", Diagnostic::from(.0))]
-    Memory(#[from] TooLarge),
-    /// No input is enabled in any cell.
-    #[error(
-        "no input is enabled in any cell: no input leaves room for the feedback\n  Use smaller cells, a smaller gain or a larger U."
-    )]
-    NothingEnabled,
-    /// Nothing can stay in the partition.
-    #[error(
-        "every input leads from every cell out of the partition, and no noise leads back: {which}; expected some that stay\n  \
-         Check the signs and units of the dynamics, or enlarge the partition."
-    )]
-    LeavesPartition {
-        /// Where images lie, and where the partition.
-        which: String,
-    },
-    /// The samples prove too little.
-    #[error(
-        "{samples} samples leave {unseen} of the probability unseen; expected enough for at most half of it\n  Take more samples, or a lower confidence."
-    )]
-    TooFewSamples {
-        /// The number of samples.
-        samples: u64,
-        /// The bound on the unseen mass.
-        unseen: f64,
-    },
-    /// The budget was overspent: a mistake in this program.
-    #[error(transparent)]
-    Budget(#[from] BudgetError),
-    /// The lattice makes no grid: a mistake in this program.
-    #[error(transparent)]
-    Grid(#[from] GridError),
 }
 
 impl InputAbstraction {

@@ -5,7 +5,7 @@ use super::super::cell_box::CellBox;
 use super::super::cell_counts::{CellCounts, Count};
 use super::super::targets::Targets;
 use super::bounds::{BoundTable, Interval};
-use crate::problem::Problem;
+use crate::problem::{Problem, TargetId};
 use rayon::prelude::*;
 
 /// The events of cells that occur: counts, and squared distances from the target's cell.
@@ -23,7 +23,8 @@ pub(super) fn cell_events(
         Some(landing) => events(landing, &vec![0; grid.dimension()]),
         None => (0..targets.len())
             .into_par_iter()
-            .flat_map_iter(|target| {
+            .flat_map_iter(|place| {
+                let target = TargetId::from_index(place);
                 let (landing, _) = landings.of(targets, target, grid, &mut vec![0; grid.dimension()]);
                 let mut events = events(&landing, &landings.target_cell(targets, target));
                 events.sort_unstable();

@@ -260,7 +260,7 @@ pub(super) fn distances_in_cells(targets: &Targets, regions: &[Region], grid: &G
         let nearest = boxes.iter().map(from_box).fold(f64::INFINITY, f64::min);
         if nearest.is_finite() { nearest as u32 } else { 0 }
     };
-    (0..targets.len()).map(distance).collect()
+    targets.ids().map(distance).collect()
 }
 
 #[cfg(test)]

@@ -94,12 +94,12 @@ use super::stencil::{Ground, Hits, Special, Stencil, StencilRows};
 use super::targets::Targets;
 use super::windows::WINDOWS;
 use crate::guarantee::SampleEvidence;
-use crate::problem::{Problem, SampledNoise};
+use crate::problem::{Problem, SampledNoise, TargetId};
 use bounds::{BoundTable, DIGITS, Interval};
 pub(super) use ends::TaskEnds;
 use ends::{EndCells, MemoryGrounds};
 use events::{cell_events, intervals};
-use imdp::model::RowSet;
+use imdp::model::{RowId, RowSet};
 use imdp::numeric::{round_decimal_down, round_decimal_up};
 use imdp::progress::Progress;
 use levels::{EventLevels, LowerBounds};
@@ -142,9 +142,8 @@ struct Action<'p> {
     ends: &'p EndCells,
     /// The number of the way of ending.
     way: usize,
-    target: usize,
-    /// The number of the row.
-    row: usize,
+    target: TargetId,
+    row: RowId,
 }
 
 impl<'a> PacRows<'a> {
@@ -224,7 +223,7 @@ impl<'a> PacRows<'a> {
         progress.start(phase, count as u64);
         let rows = match &self.stencils {
             None => super::row_tasks::build_rows(count, progress, |row, rows| {
-                let action = self.action(row);
+                let action = self.action(RowId::from_index(row));
                 let stencils = self.stencils_of(action.target);
                 let rivals = self.rivals(&stencils);
                 let mut chooser = Chooser::new(self, preference, &rivals);
@@ -261,25 +260,24 @@ impl<'a> PacRows<'a> {
     }
 
     /// The action of a row.
-    fn action(&self, row: usize) -> Action<'_> {
-        let (memory, target) = (row / self.targets.len(), row % self.targets.len());
+    fn action(&self, row: RowId) -> Action<'_> {
+        let (memory, target) = self.targets.of_row(row);
         let (ground, way, ends) = self.grounds.of(memory);
         Action { ground, ends, way, target, row }
     }
 
     /// Where what is known of an action and its way of ending is.
     fn place(&self, action: Action<'_>) -> usize {
-        action.way * self.targets.num_originals() + self.targets.original(action.target)
+        action.way * self.targets.num_originals() + self.targets.original(action.target).index()
     }
 
     /// The bounds of the room that an action needs, if it needs one.
-    fn room(&self, target: usize) -> Option<&RoomBounds> {
+    fn room(&self, target: TargetId) -> Option<&RoomBounds> {
         self.in_rooms.get(self.number_of_room(target)?)
     }
 
-    fn number_of_room(&self, target: usize) -> Option<usize> {
-        let copy = target.checked_sub(self.targets.num_originals())?;
-        Some(self.rooms.of_copy[copy])
+    fn number_of_room(&self, target: TargetId) -> Option<usize> {
+        Some(self.rooms.of_copy[self.targets.copy(target)?])
     }
 
     /// The number of windows.
@@ -300,13 +298,13 @@ impl<'a> PacRows<'a> {
     }
 
     /// Where the stencils of an action are among those of all.
-    fn first_stencil(&self, target: usize) -> usize {
+    fn first_stencil(&self, target: TargetId) -> usize {
         let room = self.number_of_room(target).filter(|&room| room < self.in_rooms.len());
         room.map_or(0, |room| (1 + room) * self.windows())
     }
 
     /// The stencils of an action whose coordinates are those of the grid.
-    fn stencils_of(&self, target: usize) -> Vec<Stencil> {
+    fn stencils_of(&self, target: TargetId) -> Vec<Stencil> {
         let grid = self.problem.grid();
         let (landing, windows) = self.landings.of(self.targets, target, grid, &mut vec![0; grid.dimension()]);
         let from = self.landings.target_cell(self.targets, target);
@@ -401,7 +399,8 @@ fn regions(
     let shared = landings.shared().zip(landings.shared_windows().first());
     let shared = shared.map(|(landing, window)| (Hits::new(landing, grounds.any()), window));
     let of_way = |(ground, ends): (&Ground, &EndCells)| -> Vec<RegionCounts> {
-        let counts = |origin: &mut Vec<i32>, target| {
+        let counts = |origin: &mut Vec<i32>, place| {
+            let target = TargetId::from_index(place);
             ground.origin(target, origin);
             match &shared {
                 Some((_, window))

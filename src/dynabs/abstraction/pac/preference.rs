@@ -60,7 +60,7 @@ impl<'a> Chooser<'a> {
         let stencils = &stencils[first..first + rows.windows()];
         let windows = rivals.iter().copied();
         let best = match preference {
-            Preference::Worth(Worth { most, .. }) if most[action.row] == 0.0 => 0,
+            Preference::Worth(Worth { most, .. }) if most[action.row.index()] == 0.0 => 0,
             Preference::LeastFailing => {
                 first_best(windows, |window| -rows.failed(&stencils[window], action, coordinates, window))
             }

@@ -3,6 +3,7 @@
 use super::super::cell_box::CellBox;
 use super::super::targets::Targets;
 use crate::partition::{CellId, Grid};
+use crate::problem::TargetId;
 use imdp::model::StateId;
 
 /// The grid, and the state of every cell.
@@ -17,7 +18,7 @@ pub(in super::super) struct Ground {
     /// Per dimension, the cell of each coordinate of the targets; nothing where origins are those of the grid.
     pub(super) targets: Vec<Vec<i32>>,
     /// Where targets that stand there again stand, after all others.
-    pub(super) again: Vec<u32>,
+    pub(super) again: Vec<TargetId>,
 }
 
 impl Ground {
@@ -36,7 +37,7 @@ impl Ground {
             states: (0..grid.num_cells()).map(|cell| state(CellId(cell))).collect(),
             targets: shared.and_then(Targets::cells_along_axes).map_or(vec![], <[_]>::to_vec),
             again: shared.map_or(vec![], |targets| {
-                (targets.num_originals()..targets.len()).map(|t| targets.original(t) as u32).collect()
+                targets.ids().skip(targets.num_originals()).map(|copy| targets.original(copy)).collect()
             }),
         }
     }
@@ -53,10 +54,10 @@ impl Ground {
     }
 
     /// Writes where the coordinates of an action's row count from into `origin`.
-    pub(in super::super) fn origin(&self, target: usize, origin: &mut Vec<i32>) {
+    pub(in super::super) fn origin(&self, target: TargetId, origin: &mut Vec<i32>) {
         let originals: usize = self.targets.iter().map(Vec::len).product();
-        let copy = target.checked_sub(originals).and_then(|copy| self.again.get(copy));
-        let mut target = copy.map_or(target, |&original| original as usize);
+        let copy = target.index().checked_sub(originals).and_then(|copy| self.again.get(copy));
+        let mut target = copy.copied().unwrap_or(target).index();
         origin.clear();
         origin.resize(self.cells.len(), 0);
         for (own, axis) in origin.iter_mut().zip(&self.targets).rev() {

@@ -41,7 +41,7 @@ impl Reach {
             self.arrays.keep(of_cells);
             next
         });
-        let again: Vec<f64> = ground.again.iter().map(|&original| most[original as usize]).collect();
+        let again: Vec<f64> = ground.again.iter().map(|&original| most[original.index()]).collect();
         most.extend(again);
         let lost = of_states[StateId(0).index()];
         most.iter_mut().for_each(|most| *most = most.max(lost));

@@ -2,6 +2,7 @@
 
 use super::reach::Reach;
 use super::{Ground, Special, Stencil};
+use crate::problem::TargetId;
 use imdp::model::{ComputedRows, Row, RowBuffer, RowId, RowSet};
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -47,7 +48,7 @@ impl StencilRows {
         stencils: Arc<[Stencil]>,
         targets: usize,
         start: impl Fn() -> T + Sync,
-        choose: impl Fn(&mut T, usize) -> Chosen + Sync,
+        choose: impl Fn(&mut T, RowId) -> Chosen + Sync,
     ) -> Self {
         let count = grounds.len() * targets;
         let mut rows = Self {
@@ -66,7 +67,10 @@ impl StencilRows {
             let tasks = (first..count).step_by(ROWS_PER_TASK).take(TASKS).collect::<Vec<_>>();
             let of_task = |from: usize| -> Vec<Chosen> {
                 let mut own = start();
-                (from..count).take(ROWS_PER_TASK).map(|row| choose(&mut own, row)).collect()
+                (from..count)
+                    .take(ROWS_PER_TASK)
+                    .map(|row| choose(&mut own, RowId::from_index(row)))
+                    .collect()
             };
             let parts: Vec<Vec<Chosen>> = tasks.into_par_iter().map(of_task).collect();
             parts.into_iter().flatten().for_each(|chosen| rows.push(chosen, &mut known));
@@ -114,8 +118,9 @@ impl ComputedRows for StencilRows {
         let stencil = &self.stencils[self.shapes[id.index()] as usize];
         let special = self.specials[self.special[id.index()] as usize];
         let RowBuffer { entries, coordinates } = buffer;
-        let ground = &self.grounds[id.index() / self.targets];
-        ground.origin(id.index() % self.targets, coordinates);
+        let (layer, target) = (id.index() / self.targets, TargetId::from_index(id.index() % self.targets));
+        let ground = &self.grounds[layer];
+        ground.origin(target, coordinates);
         stencil.row(ground, coordinates, (special, self.row_len(id)), entries)
     }
 

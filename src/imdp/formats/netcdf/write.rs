@@ -18,7 +18,7 @@ pub struct NetcdfWriter<'a> {
 /// A model that is too large for the format.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the model has {entries} transitions with {actions} actions in every state; expected at most 2147483647, which is what IntervalMDP.jl reads"
+    "found {entries} transitions with {actions} actions in every state; expected at most 2147483647, which is what IntervalMDP.jl reads"
 )]
 pub struct NetcdfError {
     /// The number of transitions.
