@@ -20,7 +20,7 @@ seconds() { # runs a command, prints its wall time
 
 for round in $(seq "$rounds"); do
   rm -rf "$directory/out" "$directory/dd"
-  ours=$(seconds "$compile" models/double_integrator.json -o "$directory/out" --quiet \
+  ours=$(seconds "$compile" models/double_integrator.json -o "$directory/out" --quiet --format prism \
     --set '/probabilities={"mode":"reference"}')
   bytes=$(stat -c %s "$directory/out/model.tra")
   dd=$(seconds dd if=/dev/zero of="$directory/dd" bs=1M count=$((bytes / 1048576)) conv=fdatasync)

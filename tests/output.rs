@@ -163,3 +163,15 @@ fn the_starter_model_and_the_schema_are_what_the_tool_reads() {
         "run dynabs-compile --schema > models/model.schema.json"
     );
 }
+
+/// PRISM's files are written where they are small, or asked for.
+#[test]
+fn nothing_surprises_by_its_size() {
+    let scratch = TempDir::new().unwrap();
+    let out = scratch.path().join("out");
+    let said = compile(&[&model("double_integrator"), "-o", out.to_str().unwrap()]);
+    assert!(said.contains("left out     model.tra of 2,315 MB: --format prism writes it"), "{said}");
+    assert!(
+        fs::metadata(out.join("model.dynabs")).unwrap().len() < 10_000_000 && !out.join("model.tra").exists()
+    );
+}

@@ -22,8 +22,8 @@ fn its_commands_work_in_this_order() {
     }
     let mut ran = 0;
     for line in commands(&readme) {
-        // This test is run by `cargo test`; programs are those that it has built. The first command writes 2.3 GB.
-        let line = line.replace("cargo run --release --bin dynabs-compile --", "dynabs-compile --no-tra");
+        // This test is run by `cargo test`; programs are those that it has built.
+        let line = line.replace("cargo run --release --bin dynabs-compile --", "dynabs-compile");
         let (program, arguments) = line.split_once(' ').unwrap();
         let path = match program {
             "dynabs-compile" | "dynabs-check" => cargo_bin(program),

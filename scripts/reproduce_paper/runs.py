@@ -32,8 +32,7 @@ class Dynabs:
         arguments = [ROOT / "models" / f"{model}.json", "-o", directory, "--force", "--quiet"]
         for setting in settings:
             arguments += ["--set", setting]
-        if mode == "pac":
-            arguments.append("--no-tra")
+        arguments += ["--no-tra"] if mode == "pac" else ["--format", "prism"]
         start = time.monotonic()
         self.run("dynabs-compile", *arguments)
         seconds = time.monotonic() - start

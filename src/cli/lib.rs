@@ -25,6 +25,7 @@ mod start;
 mod summary;
 mod threads;
 mod trajectories;
+mod unasked;
 
 pub use choices::{EncodingName, NamesChoice};
 pub use error::CliError;

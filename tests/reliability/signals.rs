@@ -54,7 +54,7 @@ fn signals_clean_up() {
     for signal in ["INT", "TERM", "HUP", "QUIT", "XCPU"] {
         let mut child = program("dynabs-compile")
             .arg(&model)
-            .args(["-q", "-o"])
+            .args(["-q", "--format", "prism", "-o"])
             .arg(scratch.path().join("run"))
             .stderr(Stdio::piped())
             .spawn()

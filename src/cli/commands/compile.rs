@@ -7,6 +7,7 @@ use crate::pruning::pruned;
 use crate::resources::{Resources, peak};
 use crate::results::{PropertyResult, exit_code, table};
 use crate::summary::{memory, memory_json, summary};
+use crate::unasked::Unasked;
 use crate::{Bars, CliError, EncodingName, print, warn};
 use clap::{Args, Parser};
 use dynabs::abstraction::{Abstraction, Footprint, compile};
@@ -57,8 +58,9 @@ pub struct CompileArguments {
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
 
-    /// Write the model in these formats as well; model.dynabs is always written.
-    #[arg(long, value_name = "FORMAT", value_parser = format_names(Format::ALL.into_iter()), value_delimiter = ',', default_value = "prism")]
+    /// Write the model in these formats as well; model.dynabs is always written. Without it, PRISM's files if they are
+    /// smaller than 100 MB.
+    #[arg(long, value_name = "FORMAT", value_parser = format_names(Format::ALL.into_iter()), value_delimiter = ',')]
     format: Vec<Format>,
 
     /// How choices are written in these formats: as they are (model.*), with one state per row (rows.*), or, for actions
@@ -175,6 +177,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
             let output = arguments.output.as_deref().filter(|_| !arguments.dry_run);
             let wanted = compile_inputs::Wanted {
                 output: output.map(|output| (output, write_options(arguments))),
+                unasked: arguments.wants_unasked(),
                 encoding: arguments.encoding.into(),
                 set: &arguments.set,
                 solve: arguments.solve || arguments.prune,
@@ -229,6 +232,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
         solution = Some(answer.solution);
         phases.push(("solving", solving.elapsed()));
     }
+    let mut left_out = None;
     let mut manifest = Manifest::new(&document, &source, &problem, &abstraction);
     manifest.set.clone_from(&arguments.set);
     manifest.warnings.append(&mut notes);
@@ -236,7 +240,11 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
 
     if let Some(output) = arguments.output.as_deref().filter(|_| !arguments.dry_run) {
         let writing = Instant::now();
-        let options = WriteOptions { solution: solution.as_ref(), ..write_options(arguments) };
+        let mut options = WriteOptions { solution: solution.as_ref(), ..write_options(arguments) };
+        if arguments.wants_unasked() {
+            let unasked = Unasked::of(&abstraction.model)?;
+            (options.formats, left_out) = (unasked.formats, unasked.left_out);
+        }
         manifest = write_run(output, &document, &problem, &abstraction, manifest, options, &*bars)?;
         phases.push(("files", writing.elapsed()));
     }
@@ -244,7 +252,8 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
         let claim = abstraction.guarantee.claim(&abstraction.property, &abstraction.model, result.bounds());
         result.guarantee = Some(claim.map_err(|error| CliError::Failure(error.to_string()))?);
     }
-    report(arguments, &manifest, &abstraction.footprint, &phases, &results)?;
+    let text = Texts { footprint: &abstraction.footprint, left_out: left_out.as_deref().unwrap_or_default() };
+    report(arguments, &manifest, &text, &phases, &results)?;
     if let Some(explanation) = explanation {
         print(&explanation.to_string())?;
     }
@@ -279,9 +288,20 @@ fn solve(
     Ok((answer, result))
 }
 
+impl CompileArguments {
+    /// Whether formats were not chosen, so that it hangs on the size of the model which it is written in.
+    fn wants_unasked(&self) -> bool {
+        self.format.is_empty() && !self.no_tra && self.encoding != EncodingName::Rows
+    }
+}
+
 fn write_options<'a>(arguments: &CompileArguments) -> WriteOptions<'a> {
     WriteOptions {
-        formats: if arguments.no_tra { vec![] } else { arguments.format.clone() },
+        // Row states are few, whatever the model; for others, that is decided when their number is known.
+        formats: match (arguments.no_tra, arguments.format.as_slice(), arguments.encoding) {
+            (false, [], EncodingName::Rows) => vec![Format::Prism],
+            _ => arguments.format.clone(),
+        },
         encoding: arguments.encoding.into(),
         force: arguments.force,
         solution: None,
@@ -333,10 +353,16 @@ fn configure(
     Ok((document, notes))
 }
 
+/// What a summary says beside the manifest.
+struct Texts<'a> {
+    footprint: &'a Footprint,
+    left_out: &'a str,
+}
+
 fn report(
     arguments: &CompileArguments,
     manifest: &Manifest,
-    footprint: &Footprint,
+    Texts { footprint, left_out }: &Texts<'_>,
     phases: &[(&str, Duration)],
     results: &[PropertyResult],
 ) -> Result<(), CliError> {
@@ -370,6 +396,6 @@ fn report(
         let directory = arguments.output.as_ref().filter(|_| !arguments.dry_run);
         let text = summary(manifest, directory.map(|path| path.display().to_string()).as_deref());
         let memory = if arguments.dry_run { memory(footprint) } else { String::new() };
-        print(&(text + &memory + &table(results)))
+        print(&(text + left_out + &memory + &table(results)))
     }
 }

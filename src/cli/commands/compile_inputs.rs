@@ -4,6 +4,7 @@ use crate::input_summary::{InputResult, summary};
 use crate::pruning::pruned;
 use crate::resources::peak;
 use crate::summary::{memory, memory_json};
+use crate::unasked::Unasked;
 use crate::{Bars, CliError, print, warn};
 use dynabs::abstraction::CostError;
 use dynabs::abstraction::inputs::{InputAbstraction, InputEncoding, InputModel, InputsError};
@@ -28,6 +29,8 @@ pub(super) struct Wanted<'a> {
     /// What `--set` changed.
     pub(super) set: &'a [String],
     pub(super) solve: bool,
+    /// Whether formats were not chosen.
+    pub(super) unasked: bool,
     /// Whether files keep only what an optimal policy needs.
     pub(super) prune: bool,
     pub(super) json: bool,
@@ -84,11 +87,16 @@ pub(super) fn compile_inputs(
     } else {
         None
     };
+    let mut unasked = Unasked::default();
     if let Some((output, options)) = &wanted.output {
         let writing = Instant::now();
-        let options = &WriteOptions { solution: kept.as_ref(), ..options.clone() };
+        let mut options = WriteOptions { solution: kept.as_ref(), ..options.clone() };
         let model = exported.as_ref().map(|exported| &exported.model);
-        manifest = write_input_run(output, document, problem, model, manifest, options, &**bars)?;
+        if let Some(model) = model.filter(|_| wanted.unasked) {
+            unasked = Unasked::of(&model.model)?;
+            options.formats.clone_from(&unasked.formats);
+        }
+        manifest = write_input_run(output, document, problem, model, manifest, &options, &**bars)?;
         phases.push(("files", writing.elapsed()));
     }
     if !wanted.quiet {
@@ -122,6 +130,7 @@ pub(super) fn compile_inputs(
         if let Some((output, _)) = &wanted.output {
             let bytes: u64 = manifest.outputs.iter().map(|file| file.bytes).sum();
             text += &format!("  {:<13}{} ({:.1} MB)\n", "written", output.display(), bytes as f64 / 1e6);
+            text += unasked.left_out.as_deref().unwrap_or_default();
         }
         text += &result.as_ref().map_or(String::new(), |result| result.text(initial));
         print(&text)?;
@@ -143,7 +152,8 @@ fn export(
     wanted: &Wanted<'_>,
     bars: &Bars,
 ) -> Result<Option<Exported>, CliError> {
-    let is_written = wanted.output.as_ref().is_some_and(|(_, options)| !options.formats.is_empty());
+    let is_written =
+        wanted.output.as_ref().is_some_and(|(_, options)| wanted.unasked || !options.formats.is_empty());
     let is_looked_at = wanted.prune || wanted.solve && wanted.encoding == InputEncoding::Flat;
     if !is_written && !is_looked_at {
         return Ok(None);
