@@ -248,6 +248,19 @@ fn policies_are_compared_by_what_they_achieve() {
     assert_near(&worst(&comparison, "policies")["by"], 0.22);
 }
 
+/// Formats without labels share the file of properties with those that have them.
+#[test]
+fn properties_that_one_side_does_not_know_are_left_out() {
+    let scratch = Scratch::new();
+    let run = scratch.run("run", UNCHANGED, &[]);
+    let [whole, bare] = ["model.tra", "model.txt"].map(|file| run.join(file));
+    Command::cargo_bin("dynabs-check").unwrap().arg("convert").args([&whole, &bare]).assert().success();
+    let comparison = compare(&whole, &bare, 1);
+    assert_eq!(section(&comparison, "intervals")["differences"], 0);
+    let notes = comparison["notes"].to_string();
+    assert!(notes.contains("no label") && notes.contains("not compared"), "{notes}");
+}
+
 #[test]
 fn what_cannot_be_compared_is_refused() {
     let scratch = Scratch::new();

@@ -184,13 +184,4 @@ fn mistakes_are_explained() {
         let error = mistake(pointer, value);
         assert!(error.contains(expected), "{pointer}: {error}");
     }
-    let mut targets =
-        car(json!({"type": "reach_at", "goal": [{"lower": [4, -4], "upper": [10, 0]}], "horizon": 3}), 10);
-    targets["actions"] = "targets".into();
-    targets["noise"] = json!({"gaussian": {"covariance": [[1, 0], [0, 1]]}, "count": 10});
-    targets["input"] = json!({"lower": [-1, -1], "upper": [1, 1]});
-    targets["partition"] = json!({"lower": [-10, -10], "upper": [10, 10], "cells": [10, 10]});
-    let document = Document::parse(Path::new("m.json"), &targets.to_string()).unwrap();
-    let error = document.stated().unwrap_err().to_string();
-    assert!(error.contains("/task/type") && error.contains("\"inputs\""), "{error}");
 }

@@ -10,7 +10,9 @@ pub fn start<A: Parser>(run: fn(&A) -> Result<ExitCode, CliError>) -> ExitCode {
     if let Err(error) = signals::watch() {
         return exit_with(Err(error));
     }
-    let arguments = match A::try_parse() {
+    // As PRISM spells it.
+    let given = std::env::args_os().map(|given| if given == "-const" { "--const".into() } else { given });
+    let arguments = match A::try_parse_from(given) {
         Ok(arguments) => arguments,
         Err(error) => return usage(&error),
     };

@@ -92,7 +92,12 @@ fn complete(
     }
     for result in &other.results {
         match parse_property(&result.property) {
-            Ok(property) => record.solve_property(&property)?,
+            Ok(property) => match record.solve_property(&property) {
+                Err(error @ CompareError::Property { .. }) => {
+                    out.notes.push(format!("{}: {error}; it is not compared", record.name));
+                }
+                solved => solved?,
+            },
             Err(error) => out.notes.push(format!("{}: {error}", other.name)),
         }
     }

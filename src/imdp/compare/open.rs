@@ -74,11 +74,20 @@ pub fn collect(directory: &Path) -> Result<Option<Record>, CompareError> {
 fn open_model(path: &Path) -> Result<Record, CompareError> {
     let format = Format::of_path(path).unwrap_or(Format::Prism);
     let imported = format.import(path, &())?;
-    let warnings = imported.warnings.iter().map(|warning| format!("{}: {warning}", path.display())).collect();
+    let warning = |warning| format!("{}: {warning}", path.display());
+    let mut notes: Vec<String> = imported.warnings.iter().map(warning).collect();
     let model = imported.model;
     let beside = path.with_extension("props");
-    let properties = if beside.exists() { read_properties(&beside)? } else { vec![] };
-    Ok(Record { notes: warnings, ..Record::of_model("", model, properties) })
+    let mut properties = if beside.exists() { read_properties(&beside)? } else { vec![] };
+    // Several models may share a file of properties, and not all of them have everything that it speaks of.
+    properties.retain(|property| {
+        let query = property.resolve(model.kind()).and_then(|objective| objective.query(&model));
+        if let Err(error) = &query {
+            notes.push(format!("{}: {property}: {error}; it is not asked here", path.display()));
+        }
+        query.is_ok()
+    });
+    Ok(Record { notes, ..Record::of_model("", model, properties) })
 }
 
 fn read_properties(path: &Path) -> Result<Vec<Property>, CompareError> {

@@ -40,12 +40,6 @@ pub(super) fn lower_covers_one(row: Row<'_>, inside: impl Fn(StateId) -> bool) -
     compare_with_one(row, End::Lower, |i| inside(row.successors[i])) != Ordering::Less
 }
 
-/// Whether every distribution of a row gives the successor at a position positive probability.
-pub(in crate::solver) fn certain(row: crate::model::Row<'_>, position: usize) -> bool {
-    let itself = row.successors[position];
-    row.lower[position] > 0.0 || (row.upper[position] > 0.0 && !upper_covers_one(row, |s| s != itself))
-}
-
 /// Whether some distribution that stays in a set gives the successor at a position positive probability; the row is
 /// known to have a distribution that stays.
 pub(in crate::solver) fn possible_within(

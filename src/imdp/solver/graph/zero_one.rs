@@ -84,7 +84,7 @@ pub(in crate::solver) fn stays(
 }
 
 /// `Q_p p(Y) > 0`: whether every (`Min`) or some (`Max`) distribution of a row gives a set positive probability.
-pub(super) fn hits(row: Row<'_>, nature: Direction, inside: impl Fn(StateId) -> bool) -> bool {
+pub(in crate::solver) fn hits(row: Row<'_>, nature: Direction, inside: impl Fn(StateId) -> bool) -> bool {
     let within = || (0..row.len()).filter(|&i| inside(row.successors[i]));
     if nature == Direction::Min && within().any(|i| row.lower[i] > 0.0) {
         return true;
