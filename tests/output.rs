@@ -170,7 +170,7 @@ fn nothing_surprises_by_its_size() {
     let scratch = TempDir::new().unwrap();
     let out = scratch.path().join("out");
     let said = compile(&[&model("double_integrator"), "-o", out.to_str().unwrap()]);
-    assert!(said.contains("left out     model.tra of 2,315 MB: --format prism writes it"), "{said}");
+    assert!(said.contains("left out     model.tra of 2,313 MB: --format prism writes it"), "{said}");
     assert!(
         fs::metadata(out.join("model.dynabs")).unwrap().len() < 10_000_000 && !out.join("model.tra").exists()
     );
