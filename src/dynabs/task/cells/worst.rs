@@ -147,7 +147,7 @@ mod tests {
     fn to_be_lost_is_worse_and_to_be_done_is_better() {
         let (_, cells) = task("!a U b");
         assert_eq!(cells.at_worst(None).unwrap().standings(None, 1), [Failed]);
-        let (_, cells) = task("F a");
+        let (_, cells) = task("F (a & (b | !b))");
         assert_eq!(cells.at_worst(None).unwrap().standings(None, 1), [Open(0)]);
     }
 
@@ -158,7 +158,7 @@ mod tests {
         let straddling = cells.at_worst(None).unwrap_err();
         assert_eq!(straddling, Straddling { cell: CellId(1), regions: 0b01 });
         // It does not matter where no cell is cut.
-        let (_, cells) = task("F ((b & X a) | (!b & X !a & X X b))");
+        let (_, cells) = task("F ((b & (X a)) | (!b & (X !a) & (X (X b))))");
         assert!(cells.at_worst(None).is_ok());
     }
 }
