@@ -213,7 +213,7 @@ class Model:
     def needs_more_than_drn(self, scratch, text, answer):
         """Whether a property is about variables or rewards of transitions."""
         earned = any(len(path.read_text().splitlines()) > 3 for path in scratch.glob("m*.trew"))
-        return "has no variable" in answer.get("error", "") or (text.startswith("R") and earned and self.is_chain())
+        return "found no variable" in answer.get("error", "") or (text.startswith("R") and earned and self.is_chain())
 
     def is_chain(self):
         return re.search(r"^\s*(dtmc|idtmc)\b", self.text, flags=re.MULTILINE) is not None
