@@ -1,6 +1,7 @@
 //! `dynabs-compile`: from a model file to PRISM files.
 
 use super::compile_inputs;
+use super::explain::is_explained_unasked;
 use crate::choices::format_names;
 use crate::limits::LimitArguments;
 use crate::pruning::pruned;
@@ -18,7 +19,6 @@ use dynabs::problem::Problem;
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, solution_options, write_run};
 use imdp::files::{self, Outputs};
 use imdp::formats::Format;
-use imdp::property::Verdict;
 use imdp::solver::Answer;
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -224,7 +224,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
     if arguments.solve && !arguments.prune {
         let solving = Instant::now();
         let (answer, result) = solve(&problem, &abstraction, &bars)?;
-        if !arguments.quiet && !arguments.json && is_low(&answer) && is_quickly_explained(&abstraction) {
+        if !arguments.quiet && !arguments.json && is_explained_unasked(&abstraction, &answer) {
             let controller = Controller::new(&problem, &abstraction, &answer)?;
             explanation = Some(explain(&problem, &abstraction, &answer, &controller, &*bars));
         }
@@ -258,19 +258,6 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
         print(&explanation.to_string())?;
     }
     Ok(exit_code(&results))
-}
-
-/// Larger models are explained when that is asked for.
-const QUICKLY_EXPLAINED: usize = 1_000_000;
-
-/// Whether an explanation, which solves the model with other intervals, takes no longer than a look at the result.
-fn is_quickly_explained(abstraction: &Abstraction) -> bool {
-    abstraction.model.rows().num_entries() <= QUICKLY_EXPLAINED
-}
-
-/// Whether a value asks for an explanation: it misses its threshold, or it is below one half.
-fn is_low(answer: &Answer) -> bool {
-    answer.verdict == Some(Verdict::Fails) || answer.lower < 0.5
 }
 
 /// Solves the task, with what controllers and reports need later.

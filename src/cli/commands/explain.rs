@@ -3,8 +3,11 @@
 use crate::run_source::{Refined, refine};
 use crate::{Bars, CliError, print};
 use clap::Args;
+use dynabs::abstraction::Abstraction;
 use dynabs::explain::explain;
 use imdp::progress::Progress;
+use imdp::property::Verdict;
+use imdp::solver::Answer;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -43,4 +46,14 @@ pub fn run(arguments: &ExplainArguments) -> Result<ExitCode, CliError> {
         print(&explanation.to_string())?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Larger models are explained when that is asked for.
+const QUICKLY_EXPLAINED: usize = 1_000_000;
+
+/// Whether a compilation that solves explains its answer too: it misses its threshold, or it is below one half; and an explanation,
+/// which solves the model with other intervals, takes no longer than a look at the result.
+pub(super) fn is_explained_unasked(abstraction: &Abstraction, answer: &Answer) -> bool {
+    let is_low = answer.verdict == Some(Verdict::Fails) || answer.lower < 0.5;
+    is_low && abstraction.model.rows().num_entries() <= QUICKLY_EXPLAINED
 }

@@ -1,6 +1,7 @@
 //! The noise of a problem whose actions are inputs.
 
-use super::noise::{GaussianNoise, NoiseSource, SampledNoise, components};
+use super::noise::{GaussianNoise, NoiseSource, SampledNoise};
+use super::plant_noise::components;
 use super::probabilities::Probabilities;
 use crate::Diagnostic;
 use crate::linear_algebra::{ExactMatrix, LdlFactors};

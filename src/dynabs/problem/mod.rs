@@ -39,6 +39,7 @@ mod input_problem;
 mod input_set;
 mod lower_layer;
 mod noise;
+mod plant_noise;
 mod probabilities;
 #[expect(clippy::module_inception, reason = "the file of the type is called after it, as everywhere")]
 mod problem;
@@ -58,9 +59,10 @@ pub use input_problem::{InputChoice, InputParts, InputProblem};
 pub use input_set::InputSet;
 pub use lower_layer::{Gain, LowerLayer, LqrWeights, Stabilizer};
 pub use noise::{
-    DrawnNoise, GaussianNoise, GivenSamples, NoiseOrigin, NoiseSource, PlantNoise, SampleKind, SampledNoise,
-    SamplesFile, StepNoise,
+    DrawnNoise, GaussianNoise, GivenSamples, NoiseOrigin, NoiseSource, SampleKind, SampledNoise, SamplesFile,
+    StepNoise,
 };
+pub use plant_noise::PlantNoise;
 pub use probabilities::Probabilities;
 pub use problem::{Actions, Knowledge, Objective, Problem, TargetPoints};
 pub use regions::{Partition, RegionBox, RegionParts, ShapeParts, TargetChoice};

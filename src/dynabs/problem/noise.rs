@@ -4,13 +4,11 @@ use super::distribution::DistributionParts;
 use super::values::{count, symmetric, vector};
 use crate::linear_algebra::{Definiteness, ExactMatrix};
 use crate::memory::Need;
-use crate::noise::known::Distribution;
 use crate::noise::{CsvError, Gaussian, NoiseSamples, parse_csv};
 use crate::statistics::departures;
 use crate::system::LinearSystem;
 use crate::{Diagnostic, Warning};
 use imdp::numeric::{Rational, to_f64};
-use num_traits::{One, Zero};
 use std::path::PathBuf;
 
 /// The most samples that quantiles are proven for.
@@ -114,15 +112,6 @@ pub enum NoiseOrigin {
     },
 }
 
-/// What is known of the noise of a problem.
-#[derive(Clone, Debug)]
-pub enum PlantNoise {
-    /// The distributions of its coordinates, which are independent; nothing where there is no noise.
-    Known(Vec<Option<Distribution>>),
-    /// Samples.
-    Sampled(Box<SampledNoise>),
-}
-
 /// What is known of the noise of one step.
 #[derive(Clone, Debug)]
 pub enum StepNoise {
@@ -170,36 +159,6 @@ impl SampledNoise {
     }
 }
 
-impl PlantNoise {
-    /// The samples, if that is what is known.
-    pub fn samples(&self) -> Option<&SampledNoise> {
-        match self {
-            Self::Known(_) => None,
-            Self::Sampled(samples) => Some(samples),
-        }
-    }
-
-    /// The mean of the noise of grouped steps: for pictures.
-    pub fn mean(&self) -> Vec<f64> {
-        match self {
-            Self::Known(components) => {
-                components.iter().map(|one| one.as_ref().map_or(0.0, Distribution::center)).collect()
-            }
-            Self::Sampled(noise) => noise.samples.mean(),
-        }
-    }
-
-    /// About how far the coordinates of the noise of grouped steps are from their means: the standard deviations of samples.
-    pub fn spread(&self) -> Vec<f64> {
-        match self {
-            Self::Known(components) => {
-                components.iter().map(|one| one.as_ref().map_or(0.0, Distribution::spread)).collect()
-            }
-            Self::Sampled(noise) => noise.samples.deviations(),
-        }
-    }
-}
-
 impl NoiseSource {
     /// Whether it is of one number of steps only: of samples of steps that were grouped before, or of the distribution of one step.
     pub(super) fn is_grouped(&self) -> bool {
@@ -209,25 +168,6 @@ impl NoiseSource {
             Self::Components(_) | Self::Gaussian(_) => true,
             Self::Drawn(_) => false,
         }
-    }
-
-    /// What is known of the noise of `d` steps of `system`.
-    ///
-    /// # Errors
-    /// A [`Diagnostic`] for the first mistake found.
-    pub(super) fn plant_noise(&self, system: &LinearSystem, d: usize) -> Result<PlantNoise, Diagnostic> {
-        let known = match self {
-            Self::Components(parts) => components(parts, system.state_dimension())?,
-            Self::Gaussian(gaussian) => gaussian.components(system.state_dimension())?,
-            _ => return Ok(PlantNoise::Sampled(Box::new(self.obtain(system, d)?))),
-        };
-        if d > 1 {
-            let found = format!("a known distribution, and {d} steps that are grouped");
-            return Err(Diagnostic::at("/noise", found, "samples, where steps are grouped").remedy(
-                "With \"actions\": \"inputs\" steps need not be grouped; or give a \"count\" of samples to draw.",
-            ));
-        }
-        Ok(PlantNoise::Known(known))
     }
 
     /// Samples of the noise of `d` steps of `system`.
@@ -246,21 +186,6 @@ impl NoiseSource {
     }
 }
 
-/// The distributions of the coordinates of an `n`-dimensional noise.
-pub(super) fn components(
-    parts: &[Option<DistributionParts>],
-    n: usize,
-) -> Result<Vec<Option<Distribution>>, Diagnostic> {
-    if parts.len() != n {
-        let expected = format!("{n}, one per dimension of the state (null for none)");
-        return Err(Diagnostic::at("/noise/components", count(parts.len(), "component"), expected));
-    }
-    let component = |(j, noise): (usize, &Option<DistributionParts>)| {
-        noise.as_ref().map(|noise| noise.distribution(&format!("/noise/components/{j}"))).transpose()
-    };
-    parts.iter().enumerate().map(component).collect()
-}
-
 impl GaussianNoise {
     /// The distribution of an `n`-dimensional noise.
     ///
@@ -275,26 +200,6 @@ impl GaussianNoise {
             Diagnostic::at(place, found, "entries of comparable sizes")
                 .remedy("Measure the state in other units.")
         })
-    }
-
-    /// The distributions of its coordinates, if these are independent.
-    fn components(&self, n: usize) -> Result<Vec<Option<Distribution>>, Diagnostic> {
-        let (mean, covariance) = self.exact(n)?;
-        let correlated = |j: usize| (0..j).any(|i| !covariance.get(i, j).is_zero());
-        if let Some(j) = (0..n).find(|&j| correlated(j)) {
-            let (place, found) =
-                (format!("/noise/gaussian/covariance/{j}"), "components that depend on each other");
-            return Err(Diagnostic::at(place, found, "a diagonal matrix, for actions that steer to targets")
-                .remedy("Give a \"count\" of samples to draw, or take \"actions\": \"inputs\"."));
-        }
-        let component = |(j, mean): (usize, Rational)| match covariance.get(j, j) {
-            variance if !variance.is_zero() => {
-                Some(Distribution::Gaussian { mean, variance: variance.clone() })
-            }
-            _ if mean.is_zero() => None,
-            _ => Some(Distribution::Atoms(vec![(mean, Rational::one())])),
-        };
-        Ok(mean.into_iter().enumerate().map(component).collect())
     }
 
     /// Mean and covariance of an `n`-dimensional noise, as written.

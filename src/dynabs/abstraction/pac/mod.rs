@@ -80,6 +80,7 @@ mod events;
 mod levels;
 mod preference;
 mod prepared;
+mod regions;
 mod roomy;
 
 use super::AbstractionError;
@@ -90,7 +91,7 @@ use super::enabling::Enabling;
 use super::footprint::need_of_rows;
 use super::rooms::Rooms;
 use super::states::{REACHED, StateSpace};
-use super::stencil::{Ground, Hits, Special, Stencil, StencilRows};
+use super::stencil::{Ground, Special, Stencil, StencilRows};
 use super::targets::Targets;
 use super::windows::WINDOWS;
 use crate::guarantee::SampleEvidence;
@@ -108,6 +109,7 @@ use preference::Chooser;
 pub(super) use preference::{Preference, Worth};
 pub(super) use prepared::Prepared;
 use rayon::prelude::*;
+use regions::regions;
 use roomy::RoomBounds;
 use std::sync::Arc;
 
@@ -386,37 +388,4 @@ fn stencils(
 /// What may fail where nothing lost is met.
 fn usual_failed(most: f64) -> (f64, f64) {
     (0.0, round_decimal_up(most, DIGITS).min(1.0))
-}
-
-/// How many samples land in the regions of the task, per way of ending and action.
-fn regions(
-    landings: &ActionCounts<'_>,
-    targets: &Targets,
-    problem: &Problem,
-    grounds: &MemoryGrounds,
-) -> Vec<RegionCounts> {
-    let grid = problem.grid();
-    let shared = landings.shared().zip(landings.shared_windows().first());
-    let shared = shared.map(|(landing, window)| (Hits::new(landing, grounds.any()), window));
-    let of_way = |(ground, ends): (&Ground, &EndCells)| -> Vec<RegionCounts> {
-        let counts = |origin: &mut Vec<i32>, place| {
-            let target = TargetId::from_index(place);
-            ground.origin(target, origin);
-            match &shared {
-                Some((_, window))
-                    if ground.contains(window, origin)
-                        && [&ends.lost, &ends.goal].iter().all(|cells| cells.of(window, origin) == 0) =>
-                {
-                    RegionCounts::default()
-                }
-                Some((hits, _)) => hits.in_regions(ground, origin),
-                None => {
-                    let (landing, _) = landings.of(targets, target, grid, &mut vec![0; grid.dimension()]);
-                    Hits::new(&landing, ground).in_regions(ground, origin)
-                }
-            }
-        };
-        (0..targets.num_originals()).into_par_iter().map_init(Vec::new, counts).collect()
-    };
-    grounds.ways().flat_map(of_way).collect()
 }
