@@ -391,7 +391,11 @@ fn inputs_are_reported() {
         let values = decoded(data["values"]["data"].as_str().unwrap());
         let steps = data["lastStep"].as_u64().unwrap();
         let expected = if name == "formula" { 0 } else { model["task"]["horizon"].as_u64().unwrap() };
-        assert_eq!((steps, values.len() as u64), (expected, 4 * cells * (steps + 1)), "{name}");
+        let memories = data.get("memories").map_or(0, |count| count.as_u64().unwrap());
+        assert_eq!(memories, if name == "formula" { 2 } else { 0 }, "{name}");
+        // At the start and with each memory before.
+        let maps = 1 + memories;
+        assert_eq!((steps, values.len() as u64), (expected, 4 * cells * (steps + 1) * maps), "{name}");
         assert_eq!(data["runs"].as_array().unwrap().len(), 9);
         let (of, words) = if name == "room" { ("u1", "°C") } else { ("(turn, speed)", "[&lt;rad&gt;]") };
         assert!(data["inputs"][0].as_str().unwrap().starts_with(of), "{data}");
