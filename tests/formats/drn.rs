@@ -43,7 +43,15 @@ fn names_that_cannot_be_written_are_refused() {
 fn variables_without_a_name_are_refused() {
     let mut parts = parts(&tiny::model());
     let states = IntervalMdp::new(parts.clone()).unwrap().num_states();
-    for (name, is_fine) in [("x", true), ("", false), ("x y", false), ("x\n", false)] {
+    for (name, is_fine) in [
+        ("x", true),
+        ("", false),
+        ("x y", false),
+        ("x\n", false),
+        ("\"", false),
+        ("\"x\"", false),
+        ("x\"", true),
+    ] {
         let mut variables = StateVariables::default();
         variables.push(name.to_owned(), VariableValues::Int(vec![1; states]));
         parts.variables = variables;

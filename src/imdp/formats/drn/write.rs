@@ -30,9 +30,14 @@ const ACTIONS: NameRule = NameRule {
 
 const VARIABLES: NameRule = NameRule {
     format: "DRN",
-    expected: "a name without blanks and control characters",
-    accepts: |name| !name.is_empty() && !name.contains(|c: char| c.is_whitespace() || c.is_control()),
+    expected: "a name without blanks and control characters that does not begin with a quotation mark",
+    accepts: |name| !name.is_empty() && stands_between_blanks(name),
 };
+
+/// Whether a name is read as it is from a line of names: what begins with a quotation mark would be one up to the next.
+fn stands_between_blanks(name: &str) -> bool {
+    !name.starts_with('"') && !name.contains(|c: char| c.is_whitespace() || c.is_control())
+}
 
 /// Writes a model in Storm's DRN format.
 #[derive(Debug)]
@@ -97,8 +102,7 @@ impl<'a> DrnWriter<'a> {
 
     /// Whether a reward structure can be written: branches of a choice all earn the same in DRN.
     pub fn holds(structure: &RewardStructure) -> bool {
-        structure.branches.is_empty()
-            && !structure.name.contains(|c: char| c.is_whitespace() || c.is_control())
+        structure.branches.is_empty() && stands_between_blanks(&structure.name)
     }
 
     /// The size of the file in bytes.
