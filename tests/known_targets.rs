@@ -2,6 +2,7 @@
 
 use crate::common::root;
 use dynabs::abstraction::{Abstraction, compile};
+use dynabs::guarantee::Evidence;
 use dynabs::model_file::Document;
 use dynabs::problem::Problem;
 use imdp::model::{RowBuffer, RowId};
@@ -62,6 +63,9 @@ fn rows_enclose_the_true_masses() {
     for sets in [&[][..], &[points]] {
         let problem = problem(sets).unwrap();
         let abstraction = compile(&problem, &()).unwrap();
+        let Evidence::Known { unlisted: most, .. } = abstraction.guarantee.evidence else {
+            panic!("known noise")
+        };
         let buffer = &mut RowBuffer::default();
         let mut point = [0.0; 2];
         for target in abstraction.targets.ids() {
@@ -84,6 +88,7 @@ fn rows_enclose_the_true_masses() {
                     low <= mass + 1e-11 && mass <= high + unlisted + 1e-11,
                     "{target:?} {successor:?}: {low} {mass} {high}"
                 );
+                assert!(mass - high <= most + 1e-11, "{target:?}: {mass} {high} {most}");
                 assert!(high - low < 1e-8, "{target:?} {successor:?}: {low} {high}");
                 listed += mass;
             }

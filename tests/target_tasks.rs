@@ -1,6 +1,7 @@
 //! Tasks over named regions for actions that are targets: values, what the closed loop does, the C code.
 
 use crate::common::controllers::Loop;
+use crate::common::tasks::{DELIVERY, formula, sequence};
 use crate::common::{c_compiler, compile_c};
 use dynabs::controller::export::{c_source, write_csv, write_json};
 use dynabs::controller::{Decision, Noise, RunMemory, Simulation};
@@ -42,27 +43,6 @@ fn stated(model: &Value) -> Result<Problem, String> {
 fn solved(task: &Value) -> Loop {
     Loop::new(stated(&model(task)).unwrap())
 }
-
-fn sequence(horizon: u64) -> Value {
-    json!({"type": "sequence", "sequence": [{"reach": "a"}, {"reach": "c", "avoid": ["b"]}], "horizon": horizon})
-}
-
-fn formula(text: &str, logic: &str, horizon: u64) -> Value {
-    json!({"type": "formula", "formula": text, "logic": logic, "horizon": horizon})
-}
-
-/// As another tool may write `F (a & (!b U c))`.
-const DELIVERY: &str = r#"HOA: v1
-States: 3
-Start: 0
-AP: 3 "c" "b" "a"
-Acceptance: 1 Inf(0)
---BODY--
-State: 0 [!2 | !0 & 1] 0 [2 & !0 & !1] 1 [0 & 2] 2
-State: 1 [!0 & !1] 1 [!0 & 1 & !2] 0 [!0 & 1 & 2] 0 [0] 2
-State: 2 {0} [t] 2
---END--
-"#;
 
 /// What is to be done in some ways, all with a memory or an end of its own.
 fn tasks() -> Vec<Value> {

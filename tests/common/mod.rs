@@ -4,6 +4,7 @@
 pub mod cases;
 pub mod certified;
 pub mod controllers;
+pub mod tasks;
 
 use dynabs::Diagnostic;
 use dynabs::abstraction::{Abstraction, compile};

@@ -13,6 +13,7 @@
 use super::enabling::Enabling;
 use super::footprint::need_of_rows;
 use super::grounds::grounds;
+use super::pac::DIGITS;
 use super::row_tasks::build_rows;
 use super::states::{FAILED, REACHED, StateSpace};
 use super::stencil::{BoxCount, Chosen, Ground, Special, Stencil, StencilRows};
@@ -28,10 +29,8 @@ use std::sync::Arc;
 
 /// Cells with no more mass than this are not listed: what they have fails.
 const NEGLIGIBLE: f64 = 1e-10;
-/// Written bounds have this many significant digits, rounded outwards.
-const DIGITS: usize = 10;
 
-/// One row per memory and target, and how much mass is not listed where nothing is in the way.
+/// One row per memory and target, and a bound on the mass of the cells that a row leaves out: each has at most [`NEGLIGIBLE`].
 pub(super) fn build(
     problem: &Problem,
     components: &[Option<Distribution>],
@@ -47,7 +46,7 @@ pub(super) fn build(
     let grounds = grounds(problem, enabling, states, shared.then_some(targets));
     let noise = Noise { components, axes: grid.axes(), tolerance };
     progress.start("rows", count as u64);
-    let found = match targets.alignment().zip(targets.axes()) {
+    let rows: RowSet = match targets.alignment().zip(targets.axes()) {
         Some((alignment, axes)) => {
             let along = |j: usize| {
                 let last = alignment[j].first_cell + alignment[j].stride * (axes[j].len() as u32 - 1);
@@ -55,7 +54,6 @@ pub(super) fn build(
                 noise.along(j, &alignment[j].phase, range)
             };
             let stencil = stencil(&grounds[0], &(0..axes.len()).map(along).collect::<Vec<_>>());
-            let usual = stencil.usual().1;
             let counts = |ground| [FAILED, REACHED].map(|state| BoxCount::new(ground, |own| own == state));
             let special: Vec<[BoxCount; 2]> = grounds.iter().map(counts).collect();
             let stencils: Arc<[Stencil]> = Arc::new([stencil]);
@@ -65,32 +63,30 @@ pub(super) fn build(
                 progress.advance(1);
                 chosen(&grounds[memory], &stencils[0], origin, &special[memory])
             };
-            let rows = StencilRows::new(grounds.clone(), stencils.clone(), targets.len(), Vec::new, choose);
-            (rows.into(), usual)
+            StencilRows::new(grounds.clone(), stencils.clone(), targets.len(), Vec::new, choose).into()
         }
-        None => {
-            let rows = build_rows(count, progress, |row, rows| {
-                let (memory, target) = targets.of_row(RowId::from_index(row));
-                let ground = &grounds[memory];
-                let mut point = vec![0.0; grid.dimension()];
-                targets.point(target, &mut point);
-                let along = |j: usize| {
-                    let axis = &grid.axes()[j];
-                    let position = (from_dyadic(point[j]).unwrap_or_default() - axis.lower()) / axis.width();
-                    noise.along(j, &position, (0, ground.cells[j] - 1))
-                };
-                let stencil = stencil(ground, &(0..point.len()).map(along).collect::<Vec<_>>());
-                let RowBuffer { mut entries, mut coordinates } = RowBuffer::default();
-                ground.origin(target, &mut coordinates);
-                let (special, cells) = merged(ground, &stencil, &coordinates);
-                let length = length(special, cells) as usize;
-                rows.push_row(stencil.row(ground, &coordinates, (special, length), &mut entries));
-            });
-            (rows.into(), 2.0 * grid.dimension() as f64 * NEGLIGIBLE)
-        }
+        None => build_rows(count, progress, |row, rows| {
+            let (memory, target) = targets.of_row(RowId::from_index(row));
+            let ground = &grounds[memory];
+            let mut point = vec![0.0; grid.dimension()];
+            targets.point(target, &mut point);
+            let along = |j: usize| {
+                let axis = &grid.axes()[j];
+                let position = (from_dyadic(point[j]).unwrap_or_default() - axis.lower()) / axis.width();
+                noise.along(j, &position, (0, ground.cells[j] - 1))
+            };
+            let stencil = stencil(ground, &(0..point.len()).map(along).collect::<Vec<_>>());
+            let RowBuffer { mut entries, mut coordinates } = RowBuffer::default();
+            ground.origin(target, &mut coordinates);
+            let (special, cells) = merged(ground, &stencil, &coordinates);
+            let length = length(special, cells) as usize;
+            rows.push_row(stencil.row(ground, &coordinates, (special, length), &mut entries));
+        })
+        .into(),
     };
     progress.finish();
-    Ok(found)
+    let unlisted = (f64::from(grid.num_cells()) * NEGLIGIBLE).next_up().min(1.0);
+    Ok((rows, unlisted))
 }
 
 /// The noise, and how far a target may be missed.

@@ -12,7 +12,8 @@ pub enum Evidence {
     Samples(SampleEvidence),
     /// Known distributions.
     Known {
-        /// The most mass of a component of the noise that is not listed and may do anything.
+        /// The most mass that is not listed: of a component of the noise, which may do anything, or of the cells that a row to a
+        /// target leaves out, which fail.
         unlisted: f64,
         /// Whether bounds from above are claims too: not where what is not listed counts as failed.
         #[serde(default = "claimed")]

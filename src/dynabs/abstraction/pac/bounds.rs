@@ -11,7 +11,7 @@ use std::hash::Hash;
 
 /// Written bounds have this many significant digits, rounded outwards: files stay short, and the loss is
 /// far below what the statistics leave open.
-pub(super) const DIGITS: usize = 10;
+pub(in super::super) const DIGITS: usize = 10;
 
 /// A lower and an upper bound for a probability.
 #[derive(Clone, Copy, Debug, PartialEq)]
