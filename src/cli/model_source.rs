@@ -4,7 +4,7 @@ use super::{Bars, CliError};
 use dynabs::guarantee::{Claim, Gap, Guarantee};
 use dynabs::run::{Manifest, NATIVE_MODEL, RunFiles};
 use imdp::certificate::FileDigest;
-use imdp::files::{Snapshot, steady};
+use imdp::files::steady;
 use imdp::formats::sha256_of_file;
 use imdp::formats::{Format, Held, Warning};
 use imdp::model::IntervalMdp;
@@ -24,8 +24,6 @@ pub(super) struct LoadedModel {
     pub(super) asks: String,
     /// The files it was read from.
     files: Vec<PathBuf>,
-    /// Which files these were, with that of the properties.
-    read: Snapshot,
     /// What was promised of the run that it is of.
     promise: Option<Promise>,
 }
@@ -46,15 +44,6 @@ impl Promise {
 }
 
 impl LoadedModel {
-    /// Fails if another process has replaced the files since: what is read now belongs to another model.
-    pub(super) fn require_unchanged(&self) -> Result<(), CliError> {
-        if snapshot(&self.files, &self.properties) == self.read {
-            return Ok(());
-        }
-        let path = self.files.first().map(|path| path.display().to_string()).unwrap_or_default();
-        Err(CliError::Failure(format!("{path}: found other files than at the start\n  Run it again.")))
-    }
-
     /// What bounds on the value of a property claim of the system; none for models that are of no run.
     ///
     /// # Errors
@@ -90,7 +79,6 @@ impl LoadedModel {
     /// # Errors
     /// [`CliError::Failure`] if they cannot be read again.
     pub(super) fn digests(&self) -> Result<Vec<FileDigest>, CliError> {
-        self.require_unchanged()?;
         let digest = |path: &PathBuf| {
             let kind = path.extension().unwrap_or_default().to_string_lossy().into_owned();
             match sha256_of_file(path) {
@@ -102,11 +90,17 @@ impl LoadedModel {
     }
 }
 
-/// Loads a model: a directory's native file (or its `.tra` if `explicit`), or a file whose extension tells its format.
+/// Loads a model: a directory's native file (or its `.tra` if `explicit`), or a file whose extension tells its format; and
+/// reads `more` of what belongs to it. Both are done again if another process replaced the files meanwhile.
 ///
 /// # Errors
-/// [`CliError::Input`] if nothing usable is there or it is malformed.
-pub(super) fn load(path: &Path, explicit: bool, bars: &Bars) -> Result<LoadedModel, CliError> {
+/// [`CliError::Input`] if nothing usable is there or it is malformed, and those of `more`.
+pub(super) fn load<T>(
+    path: &Path,
+    explicit: bool,
+    bars: &Bars,
+    more: impl Fn(&LoadedModel) -> Result<T, CliError>,
+) -> Result<(LoadedModel, T), CliError> {
     let expected = || {
         format!(
             "a directory written by dynabs-compile or a file that ends in {}",
@@ -114,9 +108,17 @@ pub(super) fn load(path: &Path, explicit: bool, bars: &Bars) -> Result<LoadedMod
         )
     };
     let shown = path.display();
+    let overtaken = |error| CliError::Failure(format!("{shown}: {error}"));
+    let with_more = |loaded: LoadedModel| more(&loaded).map(|more| (loaded, more));
     match Held::at(path) {
-        Held::Directory => steady(&[path.to_owned()], || load_directory(path, explicit, bars)),
-        Held::Model(format, path) => load_file(&path, format, bars),
+        Held::Directory => {
+            steady(&[path.to_owned()], overtaken, || with_more(load_directory(path, explicit, bars)?))
+        }
+        Held::Model(format, path) => {
+            let mut files = format.files(&path);
+            files.push(properties_beside(&files, &path));
+            steady(&files, overtaken, || with_more(load_file(&path, format, bars)?))
+        }
         Held::Nothing => Err(CliError::Input(format!("{shown}: found nothing; expected {}", expected()))),
         Held::Json | Held::Other => Err(CliError::Input(format!(
             "{shown}: found a file of another kind; expected {}{}",
@@ -217,12 +219,7 @@ fn load_file(path: &Path, format: Format, bars: &Bars) -> Result<LoadedModel, Cl
     let has_own_layout = imported.warnings.iter().any(layout);
     let warnings = imported.warnings.iter().map(ToString::to_string).collect();
     let files = format.files(path);
-    // `m.tra.gz` and `m.tra,sta,lab` have the properties of `m.tra`.
-    let transitions = files.first().map_or(path, PathBuf::as_path);
-    let packed = matches!(transitions.extension().and_then(|e| e.to_str()), Some("gz" | "xz"));
-    let unpacked = if packed { transitions.with_extension("") } else { transitions.to_owned() };
-    let properties = unpacked.with_extension("props");
-    let read = snapshot(&files, &properties);
+    let properties = properties_beside(&files, path);
     let asks = imported.properties;
     Ok(LoadedModel {
         model: imported.model,
@@ -231,11 +228,14 @@ fn load_file(path: &Path, format: Format, bars: &Bars) -> Result<LoadedModel, Cl
         properties,
         asks,
         files,
-        read,
         promise: None,
     })
 }
 
-fn snapshot(files: &[PathBuf], properties: &Path) -> Snapshot {
-    Snapshot::of(&[files, &[properties.to_owned()]].concat())
+/// Where the properties of a model are that has `files`: `m.tra.gz` and `m.tra,sta,lab` have those of `m.tra`.
+fn properties_beside(files: &[PathBuf], path: &Path) -> PathBuf {
+    let first = files.first().map_or(path, PathBuf::as_path);
+    let packed = matches!(first.extension().and_then(|extension| extension.to_str()), Some("gz" | "xz"));
+    let unpacked = if packed { first.with_extension("") } else { first.to_owned() };
+    unpacked.with_extension("props")
 }

@@ -1,7 +1,7 @@
 //! `dynabs-check convert`: from one format to another.
 
 use crate::choices::format_names;
-use crate::model_source::{load, model_help};
+use crate::model_source::{LoadedModel, load, model_help};
 use crate::{Bars, CliError, EncodingName, NamesChoice, print, thousands, warn};
 use clap::Args;
 use imdp::files::{self, Outputs};
@@ -91,9 +91,8 @@ pub fn run(arguments: &ConvertArguments) -> Result<ExitCode, CliError> {
         )));
     }
     let bars = Arc::new(Bars::new(arguments.quiet));
-    let loaded = load(&arguments.input, arguments.explicit, &bars)?;
-    let properties = Properties::read(&loaded.properties)?;
-    loaded.require_unchanged()?;
+    let read_properties = |loaded: &LoadedModel| Properties::read(&loaded.properties);
+    let (loaded, properties) = load(&arguments.input, arguments.explicit, &bars, read_properties)?;
     let mut warnings = loaded.warnings;
     let mut model = loaded.model;
     let specification = properties.specification(&model).filter(|_| format == Format::Netcdf);

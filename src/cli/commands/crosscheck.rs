@@ -94,9 +94,9 @@ const LEAST_MEMORY_MIB: u64 = 16;
 pub fn run(arguments: &CrosscheckArguments) -> Result<ExitCode, CliError> {
     let Engines { found, missing } = find_engines(arguments)?;
     let bars = Arc::new(Bars::new(arguments.quiet));
-    let loaded = load(&arguments.path, false, &bars)?;
-    let inquiries = inquiries(&arguments.questions, &loaded)?;
-    let digests = loaded.digests()?;
+    let (loaded, (inquiries, digests)) = load(&arguments.path, false, &bars, |loaded| {
+        Ok((inquiries(&arguments.questions, loaded)?, loaded.digests()?))
+    })?;
     let failure = |error| CliError::Failure(format!("{}: {error}", arguments.path.display()));
     let raised = raised(&loaded.model).map_err(failure)?;
     // Files that only we read are written again for the engines.

@@ -11,7 +11,7 @@ use crate::results::{PropertyResult, exit_code, table};
 use crate::{Bars, CliError, print, print_json, warn};
 use clap::Args;
 use dynabs::run::InputRun;
-use imdp::certificate;
+use imdp::certificate::{self, FileDigest};
 use imdp::compare::ResultsFile;
 use imdp::evaluation::{Evaluation, direct};
 use imdp::files::Outputs;
@@ -74,10 +74,11 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     if is_input_task && arguments.certificate.is_none() {
         return solve_inputs(arguments, &bars);
     }
-    let loaded = load(&arguments.path, arguments.explicit, &bars)?;
+    let (loaded, (mut questions, digests)) = load(&arguments.path, arguments.explicit, &bars, |loaded| {
+        let digests = if arguments.certificate.is_some() { loaded.digests()? } else { vec![] };
+        Ok((arguments.questions.read(loaded)?, digests))
+    })?;
     let reading = start.elapsed();
-    let mut questions = arguments.questions.read(&loaded)?;
-    loaded.require_unchanged()?;
     if is_input_task {
         // A certificate is about the model of the directory: of its two bounds, the one that a controller guarantees.
         questions.truncate(1);
@@ -97,7 +98,7 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     for question in &questions {
         let outcome = match question.problem() {
             Some(problem) => Err(CliError::Input(problem)),
-            None => solve(arguments, &loaded, question, &bars),
+            None => solve(arguments, (&loaded, &digests), question, &bars),
         };
         match outcome {
             Ok(result) => results.push(result),
@@ -122,7 +123,7 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
 /// Answers one property and writes what was asked for about it.
 fn solve(
     arguments: &SolveArguments,
-    loaded: &LoadedModel,
+    (loaded, digests): (&LoadedModel, &[FileDigest]),
     question: &Asked,
     bars: &Bars,
 ) -> Result<PropertyResult, CliError> {
@@ -134,7 +135,7 @@ fn solve(
             let (answer, mut result) = answer(&loaded.model, &property, &arguments.limits, wanted, bars)?;
             let claim = loaded.claim(&property, [answer.lower, answer.upper]);
             result.guarantee = claim.map_err(|error| CliError::Input(format!("{property}: {error}")))?;
-            write_files(arguments, loaded, &property, answer)?;
+            write_files(arguments, (loaded, digests), &property, answer)?;
             Ok(result)
         }
         Ok(Inquiry::Compound(compound)) => {
@@ -145,7 +146,7 @@ fn solve(
             });
             let mut evaluation =
                 evaluation.map_err(|error| CliError::Input(format!("{compound}: {error}")))?;
-            write_evaluation(arguments, loaded, compound, &mut evaluation)?;
+            write_evaluation(arguments, (loaded, digests), compound, &mut evaluation)?;
             let mut result =
                 PropertyResult::of_evaluation(compound, &evaluation, &loaded.model, start.elapsed());
             let bounds =
@@ -160,7 +161,7 @@ fn solve(
 /// Writes what was asked for about an expression.
 fn write_evaluation(
     arguments: &SolveArguments,
-    loaded: &LoadedModel,
+    (loaded, digests): (&LoadedModel, &[FileDigest]),
     compound: &Compound,
     evaluation: &mut Evaluation,
 ) -> Result<(), CliError> {
@@ -182,7 +183,7 @@ fn write_evaluation(
     }
     if let Some(path) = &arguments.certificate {
         let nature = arguments.questions.nature();
-        let derivation = evaluation.derivation(compound, nature, &loaded.model, loaded.digests()?);
+        let derivation = evaluation.derivation(compound, nature, &loaded.model, digests.to_vec());
         let Some(derivation) = derivation else {
             return Err(CliError::Input(format!(
                 "--certificate: found {compound}, which has a part that nothing proves: an automaton of a file, an F or U that \
@@ -228,7 +229,7 @@ fn solve_inputs(arguments: &SolveArguments, bars: &Arc<Bars>) -> Result<ExitCode
 /// Writes what was asked for about one property; all files appear together.
 fn write_files(
     arguments: &SolveArguments,
-    loaded: &LoadedModel,
+    (loaded, digests): (&LoadedModel, &[FileDigest]),
     property: &Property,
     mut answer: Answer,
 ) -> Result<(), CliError> {
@@ -245,7 +246,7 @@ fn write_files(
         files.write(path, |out| write_policy(model, policy, out)).map_err(failure(path))?;
     }
     if let Some(path) = &arguments.certificate
-        && let Some(certificate) = answer.certificate(property, loaded.digests()?)
+        && let Some(certificate) = answer.certificate(property, digests.to_vec())
     {
         files.write(path, |out| certificate::write(&certificate, out)).map_err(failure(path))?;
     }

@@ -1,6 +1,6 @@
 //! `dynabs-check verify`: certificates, checked in exact arithmetic.
 
-use crate::model_source::load;
+use crate::model_source::{LoadedModel, load};
 use crate::results::number;
 use crate::{Bars, CliError, print, thousands};
 use clap::Args;
@@ -50,8 +50,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<ExitCode, CliError> {
         Statement::Expression(derivation) => &derivation.files,
     };
     let explicit = files.iter().any(|file| file.kind == "tra");
-    let loaded = load(&arguments.path, explicit, &bars)?;
-    let digests = loaded.digests()?;
+    let (loaded, digests) = load(&arguments.path, explicit, &bars, LoadedModel::digests)?;
     let (asked, outcome) = match &statement {
         Statement::Probability(certificate) => {
             (certificate.property.to_string(), check(certificate, &loaded.model, &digests))

@@ -66,7 +66,8 @@ impl Run {
     /// # Errors
     /// [`OpenError`] if something is missing, changed, or made by an incompatible version.
     pub fn open(directory: &Path, progress: &dyn Progress) -> Result<Self, OpenError> {
-        steady(&[directory.to_owned()], || Self::open_once(directory, progress))
+        let overtaken = |error| OpenError::Io { path: directory.display().to_string(), error };
+        steady(&[directory.to_owned()], overtaken, || Self::open_once(directory, progress))
     }
 
     fn open_once(directory: &Path, progress: &dyn Progress) -> Result<Self, OpenError> {

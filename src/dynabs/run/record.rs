@@ -42,7 +42,8 @@ pub enum RecordError {
 /// # Errors
 /// [`RecordError`] if nothing is there, or something malformed.
 pub fn open_record(path: &Path) -> Result<Record, RecordError> {
-    steady(&[path.to_owned()], || open_once(path))
+    let overtaken = |error| OpenError::Io { path: path.display().to_string(), error }.into();
+    steady(&[path.to_owned()], overtaken, || open_once(path))
 }
 
 fn open_once(path: &Path) -> Result<Record, RecordError> {

@@ -28,4 +28,4 @@ pub use left_over::{claim, clear, settle};
 pub use outputs::Outputs;
 pub use place::resolve;
 pub use staged::{StagedDirectory, abandon_all, rename_new};
-pub use steady::{Snapshot, steady};
+pub use steady::steady;

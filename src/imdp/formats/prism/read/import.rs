@@ -60,8 +60,9 @@ pub fn import_files(
     let directory =
         files.tra.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     // Files of one writer: what a killed one had decided to write is finished, what is replaced meanwhile is read again.
-    steady(&files.all(), || {
-        settle(directory).map_err(|error| ImportError::io(directory, error))?;
+    let failed = |error| ImportError::io(directory, error);
+    steady(&files.all(), failed, || {
+        settle(directory).map_err(failed)?;
         read(files, progress)
     })
 }
