@@ -36,6 +36,7 @@ mod paper;
 mod predecessors;
 mod promises;
 mod prune;
+mod ranks;
 mod readme;
 mod references;
 mod reliability;
