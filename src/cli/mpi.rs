@@ -100,7 +100,7 @@ impl World {
             let mut parts = PartitionMut::new(window, counts, starts);
             self.communicator.all_gather_varcount_into(&own[..], &mut parts);
         }
-        exchanged_since(start);
+        exchanged_since(start, size_of_val(array));
     }
 }
 
@@ -117,7 +117,7 @@ impl Ranks for World {
         let start = Instant::now();
         let mut words = vec![0; self.size];
         self.communicator.all_gather_into(&own.word(), &mut words[..]);
-        exchanged_since(start);
+        exchanged_since(start, size_of_val(&words[..]));
         words.into_iter().map(Notice::of_word).collect()
     }
 

@@ -24,20 +24,26 @@ pub(super) fn together(tool: impl FnOnce() -> Result<ExitCode, CliError>) -> Exi
     }
 }
 
-/// How long this process has sent, received and waited for others, in nanoseconds.
-static EXCHANGED: AtomicU64 = AtomicU64::new(0);
+/// How long this process has sent, received and waited for others, in nanoseconds; how many bytes it has then had, in how many exchanges.
+static EXCHANGED: [AtomicU64; 3] = [const { AtomicU64::new(0) }; 3];
 
-/// Notes that numbers were exchanged until now.
+/// Notes that so many bytes were exchanged until now.
 #[cfg(feature = "mpi")]
-pub(super) fn exchanged_since(start: std::time::Instant) {
-    EXCHANGED.fetch_add(start.elapsed().as_nanos() as u64, Ordering::Relaxed);
+pub(super) fn exchanged_since(start: std::time::Instant, bytes: usize) {
+    let amounts = [start.elapsed().as_nanos() as u64, bytes as u64, 1];
+    EXCHANGED.iter().zip(amounts).for_each(|(total, more)| drop(total.fetch_add(more, Ordering::Relaxed)));
 }
 
-/// How long numbers were exchanged, for people; nothing where there is nobody to exchange them with.
+/// What was exchanged and how long it took, for people; nothing where there is nobody to exchange it with.
 pub(super) fn exchanged() -> String {
-    match EXCHANGED.load(Ordering::Relaxed) {
+    let [time, bytes, exchanges] = EXCHANGED.each_ref().map(|total| total.load(Ordering::Relaxed));
+    match exchanges {
         0 => String::new(),
-        time => format!("; of it exchanged {:.1?}", Duration::from_nanos(time)),
+        _ => format!(
+            "; of it {:.1?} for {:.1} MB in {exchanges} exchanges",
+            Duration::from_nanos(time),
+            bytes as f64 / 1e6
+        ),
     }
 }
 
