@@ -21,7 +21,7 @@ pub struct SolverOptions<'a> {
     pub policy: bool,
     /// Bounded queries: whether bounds from above are wanted; without them, they are 1.
     pub upper: bool,
-    /// Bounded queries: of how many earlier numbers of steps the lower bounds are wanted too.
+    /// Bounded queries: of how many earlier numbers of steps the bounds that the policy guarantees are wanted too.
     pub history: usize,
     /// Whether what a certificate needs is wanted, which includes the policy.
     pub evidence: bool,
