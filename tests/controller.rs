@@ -270,12 +270,13 @@ fn c_code_equals_the_library() {
         eprintln!("SKIPPED: no C compiler (cc, gcc, clang) here, the C code was not tested");
         return;
     };
-    let cases: [(&str, &[&str]); 5] = [
+    let cases: [(&str, &[&str]); 6] = [
         ("room_temperature", &[r#"/task/unsafe=[{"lower":[10],"upper":[null]}]"#]),
         ("room_temperature", &[UNBOUNDED]),
         ("double_integrator", &[]),
         ("double_integrator_two_layer", &[]),
         ("spacecraft_aligned_two_layer", &[]),
+        ("tracking/double_integrator", &[]),
     ];
     for (seed, (model, sets)) in (1..).zip(cases) {
         compare_with_c(compiler, &Loop::of(model, sets), seed);

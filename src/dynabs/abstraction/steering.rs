@@ -4,7 +4,7 @@ use super::AbstractionError;
 use super::enabled::{EnabledActions, enabled_around};
 use super::targets::Targets;
 use crate::partition::{CellId, CellKind};
-use crate::problem::{Actions, Problem};
+use crate::problem::{Actions, Problem, Stabilizer};
 use crate::system::{Demands, Extent, FeedbackLaw, SteeringConstraint};
 use imdp::progress::Progress;
 
@@ -43,7 +43,7 @@ impl Steering {
     pub(super) fn new(problem: &Problem) -> Result<Self, AbstractionError> {
         let Actions::Targets(points) = problem.actions();
         let targets = Targets::new(points, problem.grid());
-        let layers = problem.stabilizer().map(|stabilizer| &stabilizer.layers);
+        let layers = problem.stabilizer().and_then(Stabilizer::feedback).map(|feedback| &feedback.layers);
         let law = FeedbackLaw::new(problem.system(), problem.input(), layers, &demands(problem))
             .ok_or(AbstractionError::NotSteerable)?;
         let extent = Extent { state: problem.grid().magnitudes(), target: targets.magnitudes() };

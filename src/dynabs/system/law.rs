@@ -171,6 +171,16 @@ impl FeedbackLaw {
         }
         constraints
     }
+
+    /// The conditions `G′ M (d − d̄) ≤ g′` on how far off a target `d` is from a planned one `d̄`: `u′ = M (d − d̄)` is what is
+    /// added to the input that steers to `d̄`. They are conditions `α·(d − d̄) ≤ β`, one for each half-space of `U′`.
+    ///
+    /// Nothing is proven by them: `u ∈ U` is what [`constraints`](Self::constraints) are for.
+    pub fn deviations(&self, abstract_input: &Polytope) -> Vec<(Vec<f64>, f64)> {
+        let normals = abstract_input.normals().times(&self.input.target);
+        let row = |i| (0..normals.columns()).map(|j| to_f64(normals.get(i, j))).collect();
+        abstract_input.offsets().iter().enumerate().map(|(i, offset)| (row(i), to_f64(offset))).collect()
+    }
 }
 
 fn constraints_of(map: &AffineMap, set: &Polytope, extent: &Extent) -> Vec<SteeringConstraint> {
