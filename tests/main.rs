@@ -16,6 +16,7 @@ mod crosscheck_storm;
 mod design;
 mod diff;
 mod enclosure;
+mod exports;
 mod faults;
 mod formats;
 mod guarantee;
