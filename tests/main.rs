@@ -37,6 +37,7 @@ mod paper;
 mod predecessors;
 mod promises;
 mod prune;
+mod ranks;
 mod readme;
 mod references;
 mod reliability;
