@@ -214,9 +214,9 @@ fn an_error_without_exit_code_is_shown() {
 fn garbage_is_a_failure() {
     let scratch = Scratch::new();
     for (text, expected) in [
-        ("<html>", "line 1 of its values is \"<html>\""),
-        ("0.5\\n0.5\\ntrue\\nfalse", "line 3 of its values is \"true\""),
-        ("\\377\\376\\n0\\n0\\n0", "line 1 of its values"),
+        ("<html>", "line 1 of its values: found \"<html>\""),
+        ("0.5\\n0.5\\ntrue\\nfalse", "line 3 of its values: found \"true\""),
+        ("\\377\\376\\n0\\n0\\n0", "line 1 of its values: found"),
     ] {
         let said = scratch.failure(&format!("printf '{text}' >values.txt"), &[]);
         assert!(said.contains(expected), "{said}");
@@ -234,7 +234,10 @@ fn a_short_or_long_vector_is_a_failure() {
     let scratch = Scratch::new();
     for (text, found) in [("0.46\\n0.6\\n1\\n", 3), ("", 0), ("0.46\\n0.6\\n1\\n0\\n0\\n", 5)] {
         let said = scratch.failure(&format!("printf '{text}' >values.txt"), &[]);
-        assert!(said.contains(&format!("{found} values; expected one for each of the 4 states")), "{said}");
+        assert!(
+            said.contains(&format!("its values: found {found}; expected one for each of the 4 states")),
+            "{said}"
+        );
     }
 }
 
@@ -360,7 +363,7 @@ fn a_broken_storm_never_agrees() {
         (format!("{STORM_VALUES}\necho garbage >0.json"), "without an answer"),
         (
             r#"echo '{"seconds": 0.1, "error": "not supported"}' >0.json"#.to_owned(),
-            "it reports: not supported",
+            "found an error of its own: not supported",
         ),
         (format!("{STORM_VALUES}\nsleep 30"), "did not answer within 2 s"),
         (format!("{STORM_VALUES}\nkill -9 $$"), "killed by signal 9"),

@@ -318,8 +318,8 @@ fn the_tool_and_its_mistakes() {
     assert_eq!(fs::read_to_string(&output).unwrap(), plain);
 }
 
-/// The page and the plots of a problem whose actions are inputs.
-fn of_inputs(scratch: &TempDir, name: &str, model: &Value) -> (PathBuf, Vec<String>) {
+/// The page and the plots of a model.
+fn page_of(scratch: &TempDir, name: &str, model: &Value) -> (PathBuf, Vec<String>) {
     let (file, directory) = (scratch.path().join(format!("{name}.json")), scratch.path().join(name));
     fs::write(&file, model.to_string()).unwrap();
     let run = |tool: &str, arguments: &[&Path]| {
@@ -369,7 +369,7 @@ fn input_models() -> [(&'static str, Value); 3] {
     });
     let mut formula = car.clone();
     formula["regions"] =
-        json!({"a": {"lower": [0, -4], "upper": [1, 4]}, "b": {"lower": [2, -4], "upper": [4, 4]}});
+        json!({"a": {"lower": [0, -4], "upper": [1, 4]}, "b": {"G": [[-1, 0], [0.5, 1]], "g": [-2, 4]}});
     formula["task"] = json!({"type": "sequence", "sequence": [{"reach": "b"}, {"reach": "a"}], "horizon": 9});
     [("car", car), ("room", room), ("formula", formula)]
 }
@@ -378,7 +378,7 @@ fn input_models() -> [(&'static str, Value); 3] {
 fn inputs_are_reported() {
     let scratch = TempDir::new().unwrap();
     for (name, model) in input_models() {
-        let (path, pictures) = of_inputs(&scratch, name, &model);
+        let (path, pictures) = page_of(&scratch, name, &model);
         let page = fs::read_to_string(path).unwrap();
         assert_well_formed(&page);
         assert_self_contained(&page);
@@ -401,6 +401,8 @@ fn inputs_are_reported() {
         assert!(data["inputs"][0].as_str().unwrap().starts_with(of), "{data}");
         assert!(page.contains(words) && !page.contains("<rad>"));
         assert!(page.contains("no controller with these inputs is worth more"));
+        let named = if name == "formula" { 2 } else { 0 };
+        assert_eq!(pictures[0].matches("<path class=\"named outline\"").count(), named, "{name}");
         let bound = between(&page, "≥ ", "</strong>");
         assert!(bound.parse::<f64>().is_ok_and(|bound| (0.0..=1.0).contains(&bound)), "{bound}");
     }
@@ -420,8 +422,14 @@ fn a_browser_opens_it() {
         fs::write(&file, reported(&compiled(&scratch, model, &sets), vec![]).page).unwrap();
         command.arg(file);
     }
-    for (name, model) in input_models() {
-        command.arg(of_inputs(&scratch, name, &model).0);
+    // Bounds from above come true here at every step: what is kept is what is not left.
+    let kept = json!({
+        "name": "kept", "dynamics": {"A": [[0.9]], "B": [[1]]}, "input": {"lower": [-1], "upper": [1]}, "actions": "targets",
+        "noise": {"components": [{"gaussian": {"deviation": 0.3}}]},
+        "partition": {"lower": [-2], "upper": [2], "cells": [20]}, "task": {"type": "stay", "horizon": 6}
+    });
+    for (name, model) in input_models().into_iter().chain([("kept", kept)]) {
+        command.arg(page_of(&scratch, name, &model).0);
     }
     let output = command.output().unwrap();
     let text = String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned();

@@ -28,7 +28,11 @@ impl Bars {
 pub(crate) fn watch() -> Result<(), CliError> {
     use signal_hook::consts::{SIGABRT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXCPU, SIGXFSZ};
     use std::sync::atomic::AtomicBool;
-    let failure = |error| CliError::Failure(format!("signals: {error}"));
+    let failure = |error| {
+        CliError::Failure(format!(
+            "signals: found {error}; expected that they can be caught and that a thread can wait for them"
+        ))
+    };
     let always = Arc::new(AtomicBool::new(true));
     signal_hook::flag::register_conditional_shutdown(SIGABRT, 4, Arc::clone(&always)).map_err(failure)?;
     signal_hook::flag::register(SIGXFSZ, always).map_err(failure)?;

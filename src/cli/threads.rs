@@ -20,5 +20,9 @@ pub fn use_threads(threads: Option<u16>) -> Result<(), CliError> {
         )));
     }
     let builder = rayon::ThreadPoolBuilder::new().num_threads(threads);
-    builder.build_global().map_err(|error| CliError::Failure(format!("threads: {error}")))
+    builder.build_global().map_err(|error| {
+        CliError::Failure(format!(
+            "threads: found {error}; expected that the system gives them; give fewer by --threads"
+        ))
+    })
 }

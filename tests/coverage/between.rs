@@ -129,10 +129,11 @@ fn problem(layers: Layers, samples: Vec<f64>, safety: Safety, beta: f64) -> Prob
     let builder = Problem::builder(dynamics, InputSet::Box { lower: vec![-4.0], upper: vec![4.0] });
     let builder = match layers {
         Layers::One => builder,
+        // With about half of the actions of one layer.
         Layers::Two => builder.lower_layer(LowerLayer::Feedback(FeedbackLayer {
             gain: Gain::Given(vec![vec![0.2, 0.1], vec![0.0, 0.05]]),
             about: None,
-            abstract_input: InputSet::Box { lower: vec![-3.5; 2], upper: vec![3.5; 2] },
+            abstract_input: InputSet::Box { lower: vec![-2.0; 2], upper: vec![2.0; 2] },
         })),
     };
     builder

@@ -6,7 +6,7 @@ use super::NoiseSamples;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CsvError {
     /// A line has too few or too many numbers.
-    #[error("line {line}: found {found} columns, expected {expected}, one per dimension of the state")]
+    #[error("line {line}: found {found} columns; expected {expected}, one per dimension of the state")]
     Columns {
         /// The line.
         line: usize,
@@ -16,7 +16,7 @@ pub enum CsvError {
         expected: usize,
     },
     /// A field is not a finite number.
-    #[error("line {line}, column {column}: found \"{found}\", expected a finite number")]
+    #[error("line {line}, column {column}: found \"{found}\"; expected a finite number")]
     Number {
         /// The line.
         line: usize,
@@ -26,7 +26,7 @@ pub enum CsvError {
         found: String,
     },
     /// There is no sample.
-    #[error("the file has no samples")]
+    #[error("found no sample; expected one per line")]
     Empty,
 }
 

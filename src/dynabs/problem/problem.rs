@@ -6,7 +6,7 @@ use crate::geometry::Polytope;
 use crate::noise::known::Distribution;
 use crate::partition::{CellId, CellLabels, Grid, Region};
 use crate::system::{GroupingTrial, LinearSystem};
-use crate::task::{Aim, AutomatonTask, CellTask, Safety};
+use crate::task::{Aim, AutomatonTask, CellTask, NamedRegion, Safety};
 use imdp::numeric::Rational;
 use imdp::property::Probability;
 
@@ -69,6 +69,22 @@ impl Objective {
         match self {
             Self::Reach { .. } | Self::Stay { .. } => None,
             Self::Automaton(task) => Some(task.statement().to_owned()),
+        }
+    }
+
+    /// The goal, or the region to stay in, which is the whole partition if empty.
+    pub fn wanted(&self) -> &[Region] {
+        match self {
+            Self::Reach { goal: wanted } | Self::Stay { safe: wanted } => wanted,
+            Self::Automaton(_) => &[],
+        }
+    }
+
+    /// The regions that have names.
+    pub fn named(&self) -> &[NamedRegion] {
+        match self {
+            Self::Reach { .. } | Self::Stay { .. } => &[],
+            Self::Automaton(task) => task.regions(),
         }
     }
 
@@ -197,14 +213,6 @@ impl Problem {
         match &self.objective {
             Objective::Reach { goal } => goal,
             Objective::Stay { .. } | Objective::Automaton(_) => &[],
-        }
-    }
-
-    /// The goal, or the region to stay in, which is the whole partition if empty.
-    pub fn wanted(&self) -> &[Region] {
-        match &self.objective {
-            Objective::Reach { goal: wanted } | Objective::Stay { safe: wanted } => wanted,
-            Objective::Automaton(_) => &[],
         }
     }
 

@@ -4,6 +4,7 @@ use super::input_material::InputMaterial;
 use super::markup::escape;
 use super::material::Material;
 use super::numbers::compact;
+use super::outlines::Outlined;
 use super::palette::{FIRST_LIGHT_LEVEL, LEVELS, colour};
 use super::paths::class;
 use super::scene::Scene;
@@ -11,7 +12,7 @@ use super::sides::sides;
 use super::values::StepValues;
 use super::view::{Axis, View};
 use crate::partition::{CellId, CellKind, Region};
-use crate::task::Memory;
+use crate::task::{HalfSpace, Memory};
 use data_encoding::BASE64;
 use serde_json::{Value, json};
 
@@ -80,6 +81,7 @@ pub(super) fn embed(scene: &Scene<'_>, view: &View, actions: impl FnOnce() -> Em
         "policy": policy(scene),
         "goal": regions(scene.wanted, scene.dimension()),
         "unsafe": regions(scene.unsafe_, scene.dimension()),
+        "named": named(scene),
         "threshold": scene.threshold,
         "runs": runs(scene),
         "start": scene.start,
@@ -183,6 +185,14 @@ fn ranges(material: &Material<'_>) -> Option<Value> {
 fn regions(regions: &[Region], dimension: usize) -> Value {
     // Open sides are infinite, which JSON calls null.
     regions.iter().map(|region| json!((0..dimension).map(|j| sides(region, j)).collect::<Vec<_>>())).collect()
+}
+
+/// Regions with names, by shape their half-spaces: the normal, then the offset.
+fn named(scene: &Scene<'_>) -> Value {
+    let side = |side: &HalfSpace| json!((&side.normal, side.offset));
+    let shape = |shape: &Vec<HalfSpace>| shape.iter().map(side).collect::<Value>();
+    let region = |region: &Outlined| json!({"name": escape(&region.name), "shapes": region.shapes.iter().map(shape).collect::<Value>()});
+    scene.named.iter().map(region).collect()
 }
 
 fn runs(scene: &Scene<'_>) -> Value {

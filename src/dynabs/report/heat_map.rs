@@ -3,6 +3,7 @@
 use super::frame::Frame;
 use super::markup::{Plot, group};
 use super::numbers::{coordinate, short};
+use super::outlines::outlines;
 use super::palette::{LEVELS, colour, level};
 use super::paths::{arrows, runs};
 use super::regions::{hatch, regions};
@@ -19,7 +20,7 @@ pub(super) fn heat_map(scene: &Scene<'_>, view: &View) -> Plot {
     let (across, up) = view.names(scene);
     let inside = [
         group("heat", &squares(scene, view, &frame)),
-        group("regions", &regions(scene, view, &frame, id)),
+        group("regions", &(regions(scene, view, &frame, id) + &outlines(scene, view, &frame))),
         group("arrows", &arrows(scene, view, &frame)),
         group("runs", &runs(scene, view, &frame)),
         group("pick", ""),

@@ -2,12 +2,13 @@
 
 use super::material::{MOST_STEPS, MaterialOptions};
 use super::numbers::tuple;
+use super::outlines::Outlined;
 use super::scene::{Scene, SceneActions, faces};
 use super::values::StepValues;
 use crate::controller::{Controller, ParameterChoice, Simulation};
 use crate::landing::LandingSolution;
-use crate::partition::{CellId, Region};
-use crate::problem::{InputNoise, InputProblem, Objective};
+use crate::partition::CellId;
+use crate::problem::InputNoise;
 use crate::run::InputRun;
 use crate::task::Safety;
 use imdp::numeric::to_f64;
@@ -55,7 +56,8 @@ impl<'a> InputMaterial<'a> {
             grid: problem.grid(),
             names: states.iter().map(|state| state.name.clone()).collect(),
             units: states.iter().map(|state| state.unit.clone()).collect(),
-            wanted: wanted(problem),
+            wanted: problem.objective().wanted(),
+            named: Outlined::of(problem.objective().named()),
             unsafe_: problem.unsafe_regions(),
             memories: StepValues::of_lattice_memories(run, solution),
             horizon: problem.horizon(),
@@ -84,15 +86,6 @@ impl<'a> InputMaterial<'a> {
             () => None,
         });
         Self { run, solution, controller, options, satisfied, upper, scene }
-    }
-}
-
-/// The regions that a task without a memory wants.
-fn wanted(problem: &InputProblem) -> &[Region] {
-    match problem.objective() {
-        Objective::Reach { goal } => goal,
-        Objective::Stay { safe } => safe,
-        Objective::Automaton(_) => &[],
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a report of actions that are targets is made of.
 
 use super::numbers::{subscripted, tuple};
+use super::outlines::Outlined;
 use super::scene::{Scene, SceneActions, faces};
 use super::values::StepValues;
 use crate::controller::{Controller, Noise, Simulation};
@@ -74,7 +75,8 @@ impl<'a> Material<'a> {
             grid: problem.grid(),
             names: (1..=n).map(|j| subscripted("x", j)).collect(),
             units: vec![None; n],
-            wanted: problem.wanted(),
+            wanted: problem.objective().wanted(),
+            named: Outlined::of(problem.objective().named()),
             unsafe_: problem.unsafe_regions(),
             memories: StepValues::of_memories(run, answer),
             horizon: problem.horizon(),

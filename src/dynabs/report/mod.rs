@@ -13,6 +13,7 @@ mod input_material;
 mod markup;
 mod material;
 mod numbers;
+mod outlines;
 mod page;
 mod palette;
 mod paths;

@@ -44,6 +44,7 @@ struct Page {
     guarantee: String,
     warnings: String,
     map: String,
+    named_key: &'static str,
     value_name: String,
     leads: String,
     about_runs: String,
@@ -60,6 +61,9 @@ struct Page {
     data: String,
     script: String,
 }
+
+/// What stands for the regions that a task names.
+const NAMED_KEY: &str = " <span class=\"key named-key\"></span> region of the task";
 
 /// Where everything on a page comes from that is said of both kinds of actions.
 struct Sources<'a> {
@@ -168,6 +172,7 @@ fn rendered(
         guarantee: words::guarantee(&promise),
         warnings: words::warnings(manifest),
         map: heat_map(scene, view).inline(),
+        named_key: if scene.named.is_empty() { "" } else { NAMED_KEY },
         value_name: scene.value_name().to_owned(),
         leads: specifics.leads.to_owned(),
         about_runs: words::about_runs(scene),

@@ -1,5 +1,6 @@
 //! What plots show of a closed loop, whatever its actions are.
 
+use super::outlines::Outlined;
 use super::values::StepValues;
 use crate::controller::{Controller, Tally, Trajectory};
 use crate::partition::{CellId, CellKind, Grid, GridAxis, Region};
@@ -19,6 +20,8 @@ pub(super) struct Scene<'a> {
     pub(super) units: Vec<Option<String>>,
     pub(super) wanted: &'a [Region],
     pub(super) unsafe_: &'a [Region],
+    /// The regions that the task names.
+    pub(super) named: Vec<Outlined>,
     /// Values on arrival with each memory before, if runs have one; `values` are those at the start.
     pub(super) memories: Vec<StepValues>,
     /// In grouped steps.

@@ -5,7 +5,9 @@ use crate::partition::CellId;
 use crate::run::{InputRun, Run};
 use crate::task::{Aim, Memory};
 use imdp::model::StateId;
+use imdp::numeric::one_minus_down;
 use imdp::solver::Answer;
+use std::borrow::Cow;
 
 /// Lower bounds on the value of every cell, rounded down, for the first steps.
 #[derive(Clone, Debug)]
@@ -18,8 +20,7 @@ impl StepValues {
     /// The values of an answer and of the earlier steps that came with it.
     pub(super) fn of_answer(run: &Run, answer: &Answer) -> Self {
         let states = &run.abstraction.state_of_cell;
-        let all = std::iter::once(&answer.values.lower).chain(earlier(answer));
-        Self { by_step: all.map(|values| of_states(states, values)).collect() }
+        Self { by_step: with_earlier(answer).map(|values| of_states(states, &values)).collect() }
     }
 
     /// The same on arrival with each memory before, if there are several.
@@ -35,15 +36,14 @@ impl StepValues {
         let of_memory = |memory: Memory| match (problem.cell_task().aim(), problem.horizon()) {
             (Aim::End, Some(horizon)) => {
                 // Memories of the model count the steps, so the values after a step are those of later states.
-                let kept = earlier(answer).count() as u64;
+                let kept = answer.solution.history.len() as u64;
                 let after = |step: u64| arrivals(step.max(1) as Memory * memories - memories + memory);
                 let steps = 0..=kept.min(horizon);
                 Self { by_step: steps.map(|step| of_states(&after(step), &answer.values.lower)).collect() }
             }
             _ => {
-                let (states, all) =
-                    (arrivals(memory), std::iter::once(&answer.values.lower).chain(earlier(answer)));
-                Self { by_step: all.map(|values| of_states(&states, values)).collect() }
+                let states = arrivals(memory);
+                Self { by_step: with_earlier(answer).map(|values| of_states(&states, &values)).collect() }
             }
         };
         (0..memories).map(of_memory).collect()
@@ -87,9 +87,14 @@ fn of_states(states: &[StateId], values: &[f64]) -> Vec<f32> {
     states.iter().map(|&state| rounded_down(values[state.index()])).collect()
 }
 
-/// The values with fewer steps left that came with an answer.
-fn earlier(answer: &Answer) -> impl Iterator<Item = &Vec<f64>> {
-    answer.solution.history.iter().filter(|_| !answer.query.complement)
+/// The values of an answer, then those with fewer steps left that came with it.
+fn with_earlier(answer: &Answer) -> impl Iterator<Item = Cow<'_, [f64]>> {
+    let of_property = |values: &Vec<f64>| values.iter().map(|&value| one_minus_down(value)).collect();
+    let earlier = answer.solution.history.iter().map(move |values| match answer.query.complement {
+        true => Cow::Owned(of_property(values)),
+        false => Cow::Borrowed(&values[..]),
+    });
+    std::iter::once(Cow::Borrowed(&answer.values.lower[..])).chain(earlier)
 }
 
 /// The greatest single that is at most `x`.

@@ -74,7 +74,9 @@ pub enum CompareError {
         error: EvaluationError,
     },
     /// A policy takes an action that its model does not have.
-    #[error("{side}: the policy takes \"{action}\" in state {state}; expected a choice of that state")]
+    #[error(
+        "{side}: found a policy that takes \"{action}\" in state {state}; expected a choice of that state"
+    )]
     Action {
         /// The side with the policy.
         side: String,
@@ -93,13 +95,15 @@ pub enum CompareError {
     #[error("{0}; compare smaller models, or files of results or values instead of models")]
     Memory(#[from] crate::model::MemoryError),
     /// There is no model to make a reference of.
-    #[error("{path}: found no model; a reference is made of a run directory or a model file")]
+    #[error("{path}: found no model; expected a run directory or a model file to make a reference of")]
     NoModel {
         /// The path.
         path: String,
     },
     /// The two sides have no part in common.
-    #[error("{left} and {right} have nothing in common that could be compared: {notes}")]
+    #[error(
+        "{left} and {right}: found nothing in common that could be compared: {notes}; expected models, results, values or policies on both sides"
+    )]
     NothingInCommon {
         /// The left side.
         left: String,

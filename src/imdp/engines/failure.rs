@@ -15,7 +15,7 @@ pub enum EngineFailure {
         error: std::io::Error,
     },
     /// It ended with an exit code that means failure.
-    #[error("it ended with exit code {code}{}", quoted(said))]
+    #[error("found that it ended with exit code {code}{}; expected an answer", quoted(said))]
     Exit {
         /// The exit code.
         code: i32,
@@ -23,7 +23,7 @@ pub enum EngineFailure {
         said: String,
     },
     /// Something killed it.
-    #[error("it was killed by signal {signal}{}{}", if *signal == 9 { ", as the system does when memory runs out" } else { "" }, quoted(said))]
+    #[error("found that it was killed by signal {signal}{}{}; expected an answer", if *signal == 9 { ", as the system does when memory runs out" } else { "" }, quoted(said))]
     Signal {
         /// The signal.
         signal: i32,
@@ -31,13 +31,17 @@ pub enum EngineFailure {
         said: String,
     },
     /// It took longer than it was given, and was ended.
-    #[error("it did not answer within {seconds} s and was ended")]
+    #[error(
+        "found that it did not answer within {seconds} s and was ended; expected an answer by then; give it more time or a smaller model"
+    )]
     Timeout {
         /// The time it was given.
         seconds: f64,
     },
     /// It took more memory than it was given, and was ended.
-    #[error("it used {used_mib} MiB of memory, more than the {given_mib} MiB given, and was ended")]
+    #[error(
+        "found that it used {used_mib} MiB of memory and was ended; expected at most the {given_mib} MiB given; give it more, or a smaller model"
+    )]
     Memory {
         /// What it used.
         used_mib: u64,
@@ -48,19 +52,19 @@ pub enum EngineFailure {
     #[error("interrupted")]
     Interrupted,
     /// It ended as if all were well, without the values.
-    #[error("it ended without an answer{}", quoted(said))]
+    #[error("found that it ended without an answer{}; expected values", quoted(said))]
     NoAnswer {
         /// What it said.
         said: String,
     },
     /// The engine itself reports an error about the question.
-    #[error("it reports: {said}")]
+    #[error("found an error of its own: {said}")]
     Refused {
         /// What it said.
         said: String,
     },
     /// It wrote something that is not a number.
-    #[error("line {line} of its values is \"{found}\"; expected a number")]
+    #[error("line {line} of its values: found \"{found}\"; expected a number")]
     NotANumber {
         /// The line, counted from 1.
         line: usize,
@@ -68,7 +72,7 @@ pub enum EngineFailure {
         found: String,
     },
     /// It wrote a number that is no probability.
-    #[error("its value of state {state} is {value}; expected a probability")]
+    #[error("its value of state {state}: found {value}; expected a probability")]
     NotAProbability {
         /// The state.
         state: usize,
@@ -76,7 +80,7 @@ pub enum EngineFailure {
         value: f64,
     },
     /// It wrote values of a model with another number of states.
-    #[error("it wrote {found} values; expected one for each of the {expected} states")]
+    #[error("its values: found {found}; expected one for each of the {expected} states")]
     Length {
         /// How many values it wrote.
         found: usize,
@@ -84,7 +88,7 @@ pub enum EngineFailure {
         expected: usize,
     },
     /// It wrote a strategy that does not fit the model.
-    #[error("line {line} of its strategy is \"{found}\"; expected {expected}")]
+    #[error("line {line} of its strategy: found \"{found}\"; expected {expected}")]
     Strategy {
         /// The line, counted from 1.
         line: usize,
@@ -102,7 +106,7 @@ pub enum EngineFailure {
         error: std::io::Error,
     },
     /// The model cannot be expressed in the engine's format.
-    #[error("the model cannot be handed to it: {reason}")]
+    #[error("found a model that cannot be handed to it: {reason}")]
     Unsuitable {
         /// Why.
         reason: String,

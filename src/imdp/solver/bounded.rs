@@ -96,6 +96,14 @@ struct Iteration<'a> {
     history: History,
 }
 
+/// The bounds that a policy guarantees: those from below if it maximises, those from above if it minimises.
+fn guaranteed<'v>(policy: Direction, lower: &'v [f64], upper: &'v [f64]) -> &'v [f64] {
+    match policy {
+        Direction::Max => lower,
+        Direction::Min => upper,
+    }
+}
+
 impl<'a> Iteration<'a> {
     fn new(
         model: &'a IntervalMdp,
@@ -142,7 +150,8 @@ impl<'a> Iteration<'a> {
             let bytes = |changes: usize| CHANGE_BYTES * changes as u64;
             self.memory.make_room(bytes(self.changes.len()), bytes(self.sweep.states.len()))?;
         }
-        self.history.keep(&self.lower);
+        let guaranteed = guaranteed(self.players.policy, &self.lower, &self.upper);
+        self.history.keep(guaranteed);
         self.evaluate_rows(Bound::Lower);
         if self.wants_upper {
             self.evaluate_rows(Bound::Upper);
@@ -240,8 +249,9 @@ impl<'a> Iteration<'a> {
 
     fn finish(self, steps: u64, status: Status, iterations: u64) -> Solution {
         let states = self.model.num_states();
+        let guaranteed = guaranteed(self.players.policy, &self.lower, &self.upper);
         Solution {
-            history: self.history.finish(&self.lower, steps, iterations),
+            history: self.history.finish(guaranteed, steps, iterations),
             values: ValueBounds { lower: self.lower, upper: self.upper },
             status,
             iterations,

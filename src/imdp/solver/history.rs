@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-/// The lower bounds before each of the last steps taken.
+/// The bounds that the policy guarantees before each of the last steps taken.
 pub(super) struct History {
     wanted: usize,
     /// The latest last.

@@ -57,7 +57,7 @@ pub enum PruneError {
         status: Status,
     },
     /// The reduced model does not have the value that it must have.
-    #[error("the pruned model has the value [{}, {}] instead of [{}, {}]", .after.0, .after.1, .before.0, .before.1)]
+    #[error("found the value [{}, {}] of the pruned model; expected that of the whole one, [{}, {}]", .after.0, .after.1, .before.0, .before.1)]
     Value {
         /// Bounds for the whole model.
         before: (f64, f64),

@@ -15,7 +15,8 @@ pub struct Solution {
     pub iterations: u64,
     /// What the policy does, if that was asked.
     pub policy: Option<Policy>,
-    /// Of bounded queries, as far as asked for: the lower bounds with one step less, with two steps less, and so on.
+    /// Of bounded queries, as far as asked for: the bounds that the policy guarantees, lower ones if it maximises and upper
+    /// ones if it minimises, with one step less, with two steps less, and so on.
     pub history: Vec<Vec<f64>>,
     /// What proves the values, if that was asked.
     pub evidence: Option<Evidence>,

@@ -14,13 +14,13 @@ pub struct Scope {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NameError {
     /// It is no identifier.
-    #[error("\"{0}\" is not a name: names are letters, digits and _, not starting with a digit")]
+    #[error("found the name \"{0}\"; expected letters, digits and _, beginning with a letter or _")]
     NotAName(String),
     /// It is the name of a function or of π.
-    #[error("\"{0}\" has a meaning of its own in expressions; choose another name")]
+    #[error("found the name \"{0}\", which has a meaning of its own in expressions; expected another")]
     Reserved(String),
     /// Something else has it.
-    #[error("\"{0}\" is the name of something else already; every name needs one meaning")]
+    #[error("found the name \"{0}\" for a second thing; expected one meaning for every name")]
     Taken(String),
 }
 

@@ -76,7 +76,7 @@ impl fmt::Display for Position {
 #[non_exhaustive]
 pub enum ImportError {
     /// A file cannot be opened or read.
-    #[error("cannot read {}: {source}", path.display())]
+    #[error("{}: {source}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
@@ -84,7 +84,7 @@ pub enum ImportError {
         source: std::io::Error,
     },
     /// A compressed file is damaged.
-    #[error("{}: cannot be decompressed: {problem}", path.display())]
+    #[error("{}: found what cannot be decompressed: {problem}", path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
