@@ -234,7 +234,10 @@ fn a_short_or_long_vector_is_a_failure() {
     let scratch = Scratch::new();
     for (text, found) in [("0.46\\n0.6\\n1\\n", 3), ("", 0), ("0.46\\n0.6\\n1\\n0\\n0\\n", 5)] {
         let said = scratch.failure(&format!("printf '{text}' >values.txt"), &[]);
-        assert!(said.contains(&format!("its values: found {found}; expected one for each of the 4 states")), "{said}");
+        assert!(
+            said.contains(&format!("its values: found {found}; expected one for each of the 4 states")),
+            "{said}"
+        );
     }
 }
 
