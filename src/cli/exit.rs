@@ -11,11 +11,18 @@ pub fn exit_with(outcome: Result<ExitCode, CliError>) -> ExitCode {
         Ok(code) => code,
         Err(error) => {
             warn(&format!("error: {error}\n"));
-            ExitCode::from(match error {
-                CliError::Input(_) => 2,
-                CliError::Interrupted => 3,
-                _ => 4,
-            })
+            error.exit_code().into()
+        }
+    }
+}
+
+impl CliError {
+    /// The exit code of the tool that stopped because of it.
+    pub(crate) fn exit_code(&self) -> u8 {
+        match self {
+            Self::Input(_) => 2,
+            Self::Interrupted => 3,
+            Self::Failure(_) => 4,
         }
     }
 }

@@ -10,6 +10,8 @@ mod input_run_source;
 mod input_summary;
 mod limits;
 mod model_source;
+#[cfg(feature = "mpi")]
+mod mpi;
 mod output;
 mod progress;
 mod pruning;
@@ -24,6 +26,7 @@ mod simulation_start;
 mod start;
 mod summary;
 mod threads;
+mod together;
 mod trajectories;
 mod unasked;
 

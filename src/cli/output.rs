@@ -5,6 +5,21 @@ use serde::Serialize;
 use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::io::{self, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether another process of the crew speaks for this one.
+static MUTED: AtomicBool = AtomicBool::new(false);
+
+/// Says nothing from now on, or speaks again.
+#[cfg(feature = "mpi")]
+pub(super) fn mute(muted: bool) {
+    MUTED.store(muted, Ordering::Relaxed);
+}
+
+/// Whether nothing is to be said.
+pub(super) fn is_muted() -> bool {
+    MUTED.load(Ordering::Relaxed)
+}
 
 /// Writes text to stdout, in which control characters are spelled out as in JSON.
 ///
@@ -13,6 +28,9 @@ use std::io::{self, Write};
 /// # Errors
 /// [`CliError::Failure`] if writing fails.
 pub fn print(text: &str) -> Result<(), CliError> {
+    if is_muted() {
+        return Ok(());
+    }
     let mut out = io::stdout().lock();
     match out.write_all(harmless(text).as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
@@ -34,7 +52,9 @@ pub fn print_json(object: &impl Serialize) -> Result<(), CliError> {
 
 /// Writes text to stderr in the same way; if that is closed there is nobody to tell.
 pub fn warn(text: &str) {
-    let _ = io::stderr().write_all(harmless(text).as_bytes());
+    if !is_muted() {
+        let _ = io::stderr().write_all(harmless(text).as_bytes());
+    }
 }
 
 /// The text with control characters, and those that turn the direction of writing, spelled out.

@@ -1,5 +1,6 @@
 //! Progress bars for people who wait.
 
+use super::output::is_muted;
 use imdp::progress::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -41,7 +42,7 @@ impl Current {
 impl Bars {
     /// Bars, unless `quiet`.
     pub fn new(quiet: bool) -> Self {
-        Self { quiet, interrupt: AtomicBool::new(false), current: Mutex::new(None) }
+        Self { quiet: quiet || is_muted(), interrupt: AtomicBool::new(false), current: Mutex::new(None) }
     }
 
     /// Asks the work to end; returns whether that was asked before.

@@ -1,6 +1,7 @@
 //! What a tool may use, and how much memory it did.
 
 use crate::summary::thousands_of_mib;
+use crate::together::exchanged;
 use crate::{CliError, use_threads};
 use clap::Args;
 use imdp::model::{limit_memory, peak_memory};
@@ -51,9 +52,10 @@ impl Resources {
     }
 }
 
-/// The most memory used so far, for people; nothing where the system does not tell.
+/// The time that went to other processes and the most memory used so far, for people; nothing where the system does not tell.
 pub(crate) fn peak() -> String {
-    peak_memory().map_or(String::new(), |bytes| format!("; peak memory {} MiB", thousands_of_mib(bytes)))
+    let memory = peak_memory().map(|bytes| format!("; peak memory {} MiB", thousands_of_mib(bytes)));
+    exchanged() + &memory.unwrap_or_default()
 }
 
 #[cfg(test)]

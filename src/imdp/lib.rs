@@ -30,6 +30,7 @@ pub mod model;
 pub mod numeric;
 pub mod progress;
 pub mod property;
+pub mod ranks;
 pub mod solution_file;
 pub mod solver;
 pub mod verify;

@@ -4,6 +4,7 @@ use super::check;
 use super::compile::{CompileArguments, compile_or_init, write_starter};
 use super::sweep;
 use crate::resources::Resources;
+use crate::together::require_one;
 use crate::{CliError, print};
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
@@ -73,6 +74,9 @@ Examples:
 /// [`CliError`], which knows its exit code.
 pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
     arguments.resources.apply()?;
+    if !matches!(arguments.command, Command::Compile(_) | Command::Check(_)) {
+        require_one("this command")?;
+    }
     match &arguments.command {
         Command::Init { file } => write_starter(file, false)?,
         Command::Schema => print(&json_schema())?,

@@ -12,6 +12,7 @@ use super::validate::{ValidateArguments, run as validate};
 use super::verify::{VerifyArguments, run as verify};
 use crate::CliError;
 use crate::resources::Resources;
+use crate::together::require_one;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -71,6 +72,9 @@ pub fn run(arguments: &CheckArguments) -> Result<ExitCode, CliError> {
 /// # Errors
 /// [`CliError`], which knows its exit code.
 pub(super) fn run_command(command: &Command) -> Result<ExitCode, CliError> {
+    if !matches!(command, Command::Solve(_)) {
+        require_one("this command")?;
+    }
     match command {
         Command::Solve(arguments) => solve(arguments),
         Command::Controller(arguments) => controller(arguments),

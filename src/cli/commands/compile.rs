@@ -8,6 +8,7 @@ use crate::pruning::pruned;
 use crate::resources::{Resources, peak};
 use crate::results::{PropertyResult, exit_code, table};
 use crate::summary::{memory, memory_json, summary};
+use crate::together::require_one;
 use crate::unasked::Unasked;
 use crate::{Bars, CliError, EncodingName, print, warn};
 use clap::{Args, Parser};
@@ -19,6 +20,7 @@ use dynabs::problem::Problem;
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, solution_options, write_run};
 use imdp::files::{self, Outputs};
 use imdp::formats::Format;
+use imdp::ranks;
 use imdp::solver::Answer;
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -134,8 +136,10 @@ pub fn run(tool: &CompileTool) -> Result<ExitCode, CliError> {
 /// [`CliError`], which knows its exit code.
 pub(super) fn compile_or_init(arguments: &CompileArguments) -> Result<ExitCode, CliError> {
     if arguments.schema {
+        require_one("--schema")?;
         print(&json_schema())?;
     } else if let Some(file) = &arguments.init {
+        require_one("--init")?;
         write_starter(file, arguments.quiet)?;
     } else if let Some(model) = &arguments.model {
         return compile_model(arguments, model);
@@ -239,6 +243,9 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
     manifest.pruning = pruning;
 
     if let Some(output) = arguments.output.as_deref().filter(|_| !arguments.dry_run) {
+        if !ranks::dismiss() {
+            return Ok(ExitCode::SUCCESS);
+        }
         let writing = Instant::now();
         let mut options = WriteOptions { solution: solution.as_ref(), ..write_options(arguments) };
         if arguments.wants_unasked() {

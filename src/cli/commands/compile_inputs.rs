@@ -13,6 +13,7 @@ use dynabs::model_file::Document;
 use dynabs::problem::InputProblem;
 use dynabs::run::{Manifest, PruningReport, WriteOptions, input_solution_options, write_input_run};
 use imdp::progress::Progress;
+use imdp::ranks;
 use imdp::solver::SolverOptions;
 use serde_json::{Map, Value, json};
 use std::path::Path;
@@ -89,6 +90,9 @@ pub(super) fn compile_inputs(
     };
     let mut unasked = Unasked::default();
     if let Some((output, options)) = &wanted.output {
+        if !ranks::dismiss() {
+            return Ok(ExitCode::SUCCESS);
+        }
         let writing = Instant::now();
         let mut options = WriteOptions { solution: kept.as_ref(), ..options.clone() };
         let model = exported.as_ref().map(|exported| &exported.model);

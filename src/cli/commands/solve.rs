@@ -17,6 +17,7 @@ use imdp::evaluation::{Evaluation, direct};
 use imdp::files::Outputs;
 use imdp::model::IntervalMdp;
 use imdp::property::{Compound, Inquiry, Property};
+use imdp::ranks;
 use imdp::solver::{Answer, SolverOptions};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -62,6 +63,13 @@ pub struct SolveArguments {
     quiet: bool,
 }
 
+impl SolveArguments {
+    /// Whether files are to be written.
+    fn is_written(&self) -> bool {
+        [&self.values, &self.policy, &self.certificate].into_iter().any(Option::is_some)
+    }
+}
+
 /// Runs the subcommand.
 ///
 /// # Errors
@@ -83,8 +91,7 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
         // A certificate is about the model of the directory: of its two bounds, the one that a controller guarantees.
         questions.truncate(1);
     }
-    let outputs = [&arguments.values, &arguments.policy, &arguments.certificate];
-    if outputs.into_iter().any(Option::is_some) && questions.len() != 1 {
+    if arguments.is_written() && questions.len() != 1 {
         let found = questions.len();
         return Err(CliError::Input(format!(
             "--values, --policy, --certificate: found {found} properties; expected one, chosen by -p"
@@ -165,6 +172,9 @@ fn write_evaluation(
     compound: &Compound,
     evaluation: &mut Evaluation,
 ) -> Result<(), CliError> {
+    if !arguments.is_written() || !ranks::dismiss() {
+        return Ok(());
+    }
     let mut files = Outputs::default();
     if let Some(path) = &arguments.values {
         let written = files.write(path, |out| write_evaluated(&loaded.model, &*evaluation, out));
@@ -205,6 +215,9 @@ fn solve_inputs(arguments: &SolveArguments, bars: &Arc<Bars>) -> Result<ExitCode
     let SolvedInputs { run, solution } = SolvedInputs::open(&arguments.path, Some(&options), bars)?;
     let result = InputResult::new(&run.problem, &run.abstraction, &solution, start.elapsed());
     let result = result.with_exported(&run.problem, &run.abstraction, &options);
+    if arguments.is_written() && !ranks::dismiss() {
+        return Ok(ExitCode::SUCCESS);
+    }
     let mut files = Outputs::default();
     if let Some(path) = &arguments.values {
         let written = files.write(path, |out| write_cell_values(&solution.values.lower, out));
@@ -233,6 +246,9 @@ fn write_files(
     property: &Property,
     mut answer: Answer,
 ) -> Result<(), CliError> {
+    if !arguments.is_written() || !ranks::dismiss() {
+        return Ok(());
+    }
     let model = &loaded.model;
     let mut files = Outputs::default();
     let failure = |path: &Path| {

@@ -4,8 +4,9 @@ use super::Targets;
 use super::scan::Scan;
 use crate::partition::{CellId, Grid};
 use crate::system::SteeringConstraint;
-use imdp::model::RowRange;
+use imdp::model::{RowId, RowRange};
 use imdp::progress::Progress;
+use imdp::ranks::Share;
 use rayon::prelude::*;
 
 /// The enabled actions of some cells, as ranges of action numbers.
@@ -22,6 +23,9 @@ const CELLS_PER_TASK: usize = 256;
 
 /// Tasks whose results are put together at once.
 const TASKS: usize = 128;
+
+/// About how many numbers are looked at for a cell.
+const WORK_PER_CELL: usize = 64;
 
 /// The actions enabled in each of `cells`.
 ///
@@ -75,14 +79,15 @@ pub(super) fn enabled_around(
         progress.advance(chunk.len() as u64);
         found
     };
+    let share = Share::new(cells.len(), cells.len() * WORK_PER_CELL);
     // Not all tasks at once: what they found stands only once in memory.
     let mut all = EnabledActions::default();
-    for chunks in cells.chunks(CELLS_PER_TASK * TASKS) {
+    for chunks in cells[share.own()].chunks(CELLS_PER_TASK * TASKS) {
         let parts: Vec<EnabledActions> = chunks.par_chunks(CELLS_PER_TASK).map(of_task).collect();
         parts.into_iter().for_each(|part| all.append(part));
     }
     all.ranges.shrink_to_fit();
-    all
+    all.joined(&share)
 }
 
 impl EnabledActions {
@@ -90,6 +95,18 @@ impl EnabledActions {
     pub(super) fn append(&mut self, part: Self) {
         self.ranges_per_cell.extend(part.ranges_per_cell);
         self.ranges.extend(part.ranges);
+    }
+
+    /// Those of all cells, from those of the cells of this process.
+    pub(super) fn joined(self, share: &Share) -> Self {
+        if share.is_all() {
+            return self;
+        }
+        let ends = self.ranges.iter().flat_map(|range| [range.first.0, range.last.0]);
+        let ends = share.join(ends.collect::<Vec<u32>>());
+        let range = |ends: &[u32; 2]| RowRange { first: RowId(ends[0]), last: RowId(ends[1]) };
+        let ranges = ends.as_chunks::<2>().0.iter().map(range).collect();
+        Self { ranges_per_cell: share.join(self.ranges_per_cell), ranges }
     }
 }
 

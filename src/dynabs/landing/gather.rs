@@ -2,6 +2,7 @@
 
 use super::arrays::Arrays;
 use super::side::Side;
+use imdp::ranks::Share;
 use rayon::prelude::*;
 
 /// How many numbers of a row are compared at a time: they stay in the first-level cache.
@@ -43,16 +44,25 @@ impl Gather {
         let count = self.ranges.len();
         let mut out = arrays.take(values.len() / len * count);
         if inner >= SHORT {
-            let rows = out.par_chunks_mut(inner).enumerate().with_min_len((LEAST / inner).max(1));
-            rows.for_each(|(row, out)| {
+            let share = Share::new(out.len() / inner, out.len());
+            let own = share.own();
+            let rows = out[own.start * inner..own.end * inner].par_chunks_mut(inner);
+            rows.enumerate().with_min_len((LEAST / inner).max(1)).for_each(|(i, out)| {
+                let row = own.start + i;
                 let block = &values[row / count * len * inner..(row / count + 1) * len * inner];
                 self.compare::<S>(block, self.ranges[row % count], out);
             });
+            share.complete(&mut out);
         } else if count > 0 {
-            let blocks = out.par_chunks_mut(count * inner).zip(values.par_chunks(len * inner));
+            let (from, to) = (len * inner, count * inner);
+            let share = Share::new(values.len() / from, out.len());
+            let own = share.own();
+            let blocks = out[own.start * to..own.end * to].par_chunks_mut(to);
             blocks
-                .with_min_len((LEAST / (count * inner)).max(1))
+                .zip(values[own.start * from..own.end * from].par_chunks(from))
+                .with_min_len((LEAST / to).max(1))
                 .for_each_init(Vec::new, |level, (out, values)| self.double::<S>(values, level, out));
+            share.complete(&mut out);
         }
         out
     }

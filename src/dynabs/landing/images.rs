@@ -5,6 +5,8 @@ use super::axis::Axis;
 use super::image_source::ImageSource;
 use super::layout::Layout;
 use super::side::Side;
+use imdp::ranks::Share;
+use imdp::solver::NO_CHOICE;
 use rayon::prelude::*;
 
 /// The images of a set of cells.
@@ -78,13 +80,18 @@ impl Images {
                 }
             }
         };
-        let blocks = cells.par_chunks(BLOCK).zip(at.par_chunks_mut(BLOCK * inputs));
+        let share = Share::new(cells.len(), at.len() * layout.dimension());
+        let own = share.own();
+        let of_own = own.start * inputs..own.end * inputs;
+        let blocks = cells[own].par_chunks(BLOCK).zip(at[of_own.clone()].par_chunks_mut(BLOCK * inputs));
         if many {
-            let blocks = blocks.zip(shapes.par_chunks_mut(BLOCK * inputs));
+            let blocks = blocks.zip(shapes[of_own].par_chunks_mut(BLOCK * inputs));
             blocks.for_each(|((cells, at), shapes)| fill(cells, at, Some(shapes)));
         } else {
             blocks.for_each(|(cells, at)| fill(cells, at, None));
         }
+        share.complete(&mut at);
+        share.complete(&mut shapes);
         Self { inputs, cells: cells.to_vec(), at, shapes, layout }
     }
 
@@ -176,17 +183,22 @@ impl Images {
             }
             best
         };
-        let mut found = vec![];
-        (0..self.cells.len())
-            .into_par_iter()
-            .with_min_len(BLOCK / 8)
-            .map(of_cell)
-            .collect_into_vec(&mut found);
-        self.cells.iter().zip(found).for_each(|(&cell, best)| {
-            if let Some((value, input)) = best {
-                note(cell, value, input);
+        let cells = self.cells.len();
+        let share = Share::new(cells, self.at.len());
+        let (mut values, mut inputs) = (vec![0.0; cells], vec![NO_CHOICE; cells]);
+        let both = values[share.own()].par_iter_mut().zip(&mut inputs[share.own()]);
+        both.zip(share.own()).with_min_len(BLOCK / 8).for_each(|((value, input), cell)| {
+            if let Some(best) = of_cell(cell) {
+                (*value, *input) = best;
             }
         });
+        share.complete(&mut values);
+        share.complete(&mut inputs);
+        for ((&cell, value), input) in self.cells.iter().zip(values).zip(inputs) {
+            if input != NO_CHOICE {
+                note(cell, value, input);
+            }
+        }
         arrays.keep(worth);
     }
 }

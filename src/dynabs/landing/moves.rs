@@ -3,6 +3,7 @@
 use super::masses::Masses;
 use super::side::Side;
 use super::stencil::{Band, Stencil, Tap};
+use imdp::ranks::Share;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -122,10 +123,12 @@ impl Move {
         let n = self.from.len();
         let line = self.from[n - 1].len;
         let mut out = vec![0.0; self.from.iter().map(|span| span.len).product()];
-        let lines = out.par_chunks_mut(line).enumerate();
+        let share = Share::new(out.len() / line, out.len());
+        let own = share.own();
+        let lines = out[own.start * line..own.end * line].par_chunks_mut(line).enumerate();
         lines.for_each_init(Scratch::default, |scratch, (index, out)| {
             let mut place = vec![0; n];
-            let mut rest = index;
+            let mut rest = own.start + index;
             for j in (0..n - 1).rev() {
                 place[j] = self.from[j].first + (rest % self.from[j].len) as i64;
                 rest /= self.from[j].len;
@@ -138,6 +141,7 @@ impl Move {
             });
             self.line::<S>(sources, out, scratch);
         });
+        share.complete(&mut out);
         out
     }
 

@@ -5,7 +5,9 @@ use super::axis::Axis;
 use super::kernel::Run;
 use super::side::Side;
 use super::weights::Weights;
+use imdp::ranks::Share;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// How many numbers of a row are summed at a time: they stay in the first-level cache.
 const BLOCK: usize = 1024;
@@ -57,10 +59,12 @@ impl Stage {
         let noisy = self.axis.noise.is_some();
         let mut out = arrays.take(values.len() / cells * len);
         let mut pairs = arrays.take(if noisy { values.len() / cells * (cells + 1) } else { 0 });
+        let share = Share::new(out.len() / inner, out.len());
         if noisy {
-            self.pairs::<S>(values, inner, &mut pairs);
+            let blocks = share.own().start / len..share.own().end.div_ceil(len);
+            self.pairs::<S>(values, inner, &mut pairs, blocks);
         }
-        rows(&mut out, inner).for_each(|(row, out)| {
+        rows(&mut out, inner, share.own()).for_each(|(row, out)| {
             let (block, sources) = (row / len, &self.sources[row % len]);
             let values = &values[block * cells * inner..(block + 1) * cells * inner];
             if noisy {
@@ -76,13 +80,14 @@ impl Stage {
             }
         });
         arrays.keep(pairs);
+        share.complete(&mut out);
         out
     }
 
-    /// Writes `pairs[c + 1] = opt(V(c), V(c + 1))` for `c = −1 … cells − 1`, with failure outside.
-    fn pairs<S: Side>(&self, values: &[f64], inner: usize, pairs: &mut [f64]) {
+    /// Writes `pairs[c + 1] = opt(V(c), V(c + 1))` for `c = −1 … cells − 1`, with failure outside, in some of the outer blocks.
+    fn pairs<S: Side>(&self, values: &[f64], inner: usize, pairs: &mut [f64], blocks: Range<usize>) {
         let Axis { cells, periodic, .. } = self.axis;
-        rows(pairs, inner).for_each(|(row, out)| {
+        rows(pairs, inner, blocks.start * (cells + 1)..blocks.end * (cells + 1)).for_each(|(row, out)| {
             let (block, c) = (row / (cells + 1), row % (cells + 1));
             let cell = |c: usize| &values[(block * cells + c) * inner..(block * cells + c + 1) * inner];
             let (below, above) = match (periodic, c) {
@@ -106,7 +111,7 @@ impl Sources {
         let (q, place) = (sub_cell.div_euclid(r), sub_cell.rem_euclid(r) as usize);
         let Weights { single, pair } = &weights[place];
         let position = |offset: i64| if axis.periodic { (q + offset).rem_euclid(n) } else { q + offset };
-        let of = |weights: &[(i64, f64)], range: std::ops::Range<i64>| {
+        let of = |weights: &[(i64, f64)], range: Range<i64>| {
             let places = weights.iter().map(|&(offset, mass)| (position(offset), mass));
             let inside = places.filter(|(place, _)| range.contains(place));
             let mut rows: Vec<_> =
@@ -129,9 +134,14 @@ impl Sources {
     }
 }
 
-/// The rows of an array, in parallel.
-fn rows(array: &mut [f64], inner: usize) -> impl IndexedParallelIterator<Item = (usize, &mut [f64])> {
-    array.par_chunks_mut(inner).enumerate().with_min_len((8 * BLOCK / inner).max(1))
+/// Some of the rows of an array with their numbers, in parallel.
+fn rows(
+    array: &mut [f64],
+    inner: usize,
+    which: Range<usize>,
+) -> impl IndexedParallelIterator<Item = (usize, &mut [f64])> {
+    let rows = array[which.start * inner..which.end * inner].par_chunks_mut(inner);
+    rows.enumerate().map(move |(i, row)| (which.start + i, row)).with_min_len((8 * BLOCK / inner).max(1))
 }
 
 fn edge<S: Side>(cell: &[f64], out: &mut [f64]) {

@@ -67,9 +67,15 @@ pub(super) struct Workspace {
 }
 
 impl RowBlock {
-    pub(super) fn new(all: &RowSet, rows: Vec<RowId>, Workspace { buffer, .. }: &mut Workspace) -> Self {
-        let slacks = rows.iter().map(|&row| slack(all.row(row, buffer))).collect();
-        Self { critical: vec![0; rows.len()], rows, slacks }
+    /// The rows, which are not [prepared](Self::prepare).
+    pub(super) fn new(rows: Vec<RowId>) -> Self {
+        Self { rows, critical: vec![], slacks: vec![] }
+    }
+
+    /// Gets ready to evaluate the rows.
+    pub(super) fn prepare(&mut self, all: &RowSet, Workspace { buffer, .. }: &mut Workspace) {
+        self.slacks = self.rows.iter().map(|&row| slack(all.row(row, buffer))).collect();
+        self.critical = vec![0; self.rows.len()];
     }
 
     /// The expectations of the rows of the block, in their order; those that are `known` are taken as they are.
@@ -206,7 +212,8 @@ mod tests {
             let id = rows.finish_row();
             let rows = RowSet::from(rows);
             let mut workspace = Workspace::default();
-            let mut block = RowBlock::new(&rows, vec![id], &mut workspace);
+            let mut block = RowBlock::new(vec![id]);
+            block.prepare(&rows, &mut workspace);
             let mut buffer = RowBuffer::default();
             for values in rounds {
                 let values: Vec<f64> = values.into_iter().map(|v| f64::from(v) / 11.0).collect();

@@ -1,6 +1,7 @@
 //! When to stop, and how it was stopped.
 
 use crate::progress::Progress;
+use crate::ranks;
 use std::fmt;
 use std::time::{Duration, Instant};
 
@@ -77,6 +78,9 @@ impl fmt::Display for Status {
     }
 }
 
+/// Why a computation may be told to stop, the strongest reason last.
+const REASONS: [Status; 3] = [Status::TimeLimit, Status::IterationLimit, Status::Interrupted];
+
 /// Counts iterations and says when to stop.
 pub struct Control<'a> {
     options: &'a SolverOptions<'a>,
@@ -96,8 +100,16 @@ impl<'a> Control<'a> {
         self.options
     }
 
-    /// Why to stop now, if so.
+    /// Why to stop now, if so; processes that share their work stop together.
     pub fn stop(&self) -> Option<Status> {
+        let own = self.own_reason();
+        let number =
+            |reason: Status| REASONS.iter().position(|&other| other == reason).map_or(0, |place| place + 1);
+        let agreed = ranks::greatest(own.map_or(0, number) as u8);
+        REASONS.get(usize::from(agreed).wrapping_sub(1)).copied()
+    }
+
+    fn own_reason(&self) -> Option<Status> {
         if self.options.progress.is_interrupted() {
             Some(Status::Interrupted)
         } else if self.iterations >= self.options.max_iterations {

@@ -1,13 +1,14 @@
 //! One application of the Bellman operator to a set of rows and states.
 //!
 //! `W(a) = opt_p p·V` for every row, then `V⁺(s) = opt_a W(a)` over the ranges of every state. Each row is
-//! evaluated once, however many states share it. The results do not depend on the number of threads:
+//! evaluated once, however many states share it. The results do not depend on the number of threads or processes:
 //! every value is computed from the previous values alone.
 
 use super::expectation::{Bound, RowBlock, Workspace};
 use super::query::Players;
 use super::range_optimum::RangeOptimum;
 use crate::model::{IntervalMdp, RowId, StateId};
+use crate::ranks::Share;
 use rayon::prelude::*;
 
 /// Entries per block of rows: large enough to outweigh the hand-over to a thread.
@@ -22,6 +23,8 @@ pub(super) struct Sweep<'a> {
     players: Players,
     pub states: Vec<StateId>,
     blocks: Vec<RowBlock>,
+    /// Whose blocks are whose.
+    share: Share,
     /// Of a single block.
     workspace: Workspace,
     many_ranges: bool,
@@ -36,21 +39,23 @@ impl<'a> Sweep<'a> {
     ) -> Self {
         let mut blocks = vec![];
         let (mut block, mut entries) = (vec![], 0);
-        let mut workspace = Workspace::default();
-        let mut new = |rows| RowBlock::new(model.rows(), rows, &mut workspace);
         for &row in rows {
             block.push(row);
             entries += model.rows().row_len(row);
             if entries >= BLOCK_ENTRIES {
-                blocks.push(new(std::mem::take(&mut block)));
+                blocks.push(RowBlock::new(std::mem::take(&mut block)));
                 entries = 0;
             }
         }
         if !block.is_empty() {
-            blocks.push(new(block));
+            blocks.push(RowBlock::new(block));
         }
+        let share = Share::new(blocks.len(), blocks.len() * BLOCK_ENTRIES);
+        let mut workspace = Workspace::default();
+        blocks[share.own()].iter_mut().for_each(|block| block.prepare(model.rows(), &mut workspace));
         let ranges: usize = states.iter().map(|&s| model.choices().ranges(s).len()).sum();
-        Self { model, players, states, blocks, workspace, many_ranges: ranges >= PARALLEL_RANGES }
+        let many_ranges = ranges >= PARALLEL_RANGES;
+        Self { model, players, states, blocks, share, workspace, many_ranges }
     }
 
     /// The rows, in blocks.
@@ -77,16 +82,34 @@ impl<'a> Sweep<'a> {
             let evaluate = |workspace: &mut Workspace, block: &mut RowBlock| {
                 block.evaluate(all, values, way, known, workspace)
             };
-            match &mut self.blocks[..] {
+            match &mut self.blocks[self.share.own()] {
                 [block] => vec![evaluate(&mut self.workspace, block)],
                 blocks => blocks.par_iter_mut().map_init(Workspace::default, evaluate).collect(),
             }
         };
         let weights = table.values_mut();
-        for (block, results) in self.blocks.iter().zip(results) {
-            block.rows.iter().zip(results).for_each(|(&row, w)| weights[row.index()] = w);
+        let mut note = |row: RowId, w: f64| weights[row.index()] = w;
+        if self.share.is_all() {
+            let blocks = self.blocks.iter().zip(results);
+            blocks.for_each(|(block, results)| block.rows.iter().zip(results).for_each(|(&r, w)| note(r, w)));
+        } else {
+            self.rows().zip(self.results_of_all(results)).for_each(|(row, w)| note(row, w));
         }
         table.rebuild();
+    }
+
+    /// The results of the rows of all processes, from those of the blocks of this one.
+    fn results_of_all(&self, own: Vec<Vec<f64>>) -> Vec<f64> {
+        let ends = self.blocks.iter().scan(0, |end, block| {
+            *end += block.rows.len();
+            Some(*end)
+        });
+        let starts: Vec<usize> = std::iter::once(0).chain(ends).collect();
+        let mut all = vec![0.0; starts[self.blocks.len()]];
+        let places = all[starts[self.share.own().start]..].iter_mut();
+        places.zip(own.into_iter().flatten()).for_each(|(place, w)| *place = w);
+        self.share.complete_with(&mut all, |block| starts[block]);
+        all
     }
 
     /// The optimum over the choices of every state, in the order of [`Sweep::states`].
@@ -94,11 +117,12 @@ impl<'a> Sweep<'a> {
         let choices = self.model.choices();
         out.clear();
         if self.many_ranges {
-            self.states
-                .par_iter()
-                .with_min_len(256)
-                .map(|&s| table.best(choices.ranges(s)))
-                .collect_into_vec(out);
+            out.resize(self.states.len(), 0.0);
+            let share = Share::new(self.states.len(), choices.num_ranges());
+            let (states, own) = (&self.states[share.own()], &mut out[share.own()]);
+            let both = states.par_iter().zip(own).with_min_len(256);
+            both.for_each(|(&s, best)| *best = table.best(choices.ranges(s)));
+            share.complete(out);
         } else {
             out.extend(self.states.iter().map(|&s| table.best(choices.ranges(s))));
         }

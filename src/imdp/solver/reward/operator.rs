@@ -91,7 +91,8 @@ impl Operator {
         }
         let rows = RowSet::from(rows);
         let mut workspace = Workspace::default();
-        let block = RowBlock::new(&rows, RowId::first(rows.len()).collect(), &mut workspace);
+        let mut block = RowBlock::new(RowId::first(rows.len()).collect());
+        block.prepare(&rows, &mut workspace);
         Self { states, players, choices, rows, block, workspace, model_states, branches }
     }
 
