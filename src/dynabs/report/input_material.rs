@@ -1,10 +1,12 @@
 //! What a report of actions that are inputs is made of.
 
+use super::choice::{ViewChoice, ViewError};
 use super::material::{MOST_STEPS, MaterialOptions};
 use super::numbers::tuple;
 use super::outlines::Outlined;
 use super::scene::{Scene, SceneActions, faces};
 use super::values::StepValues;
+use super::view::View;
 use crate::controller::{Controller, ParameterChoice, Simulation};
 use crate::landing::LandingSolution;
 use crate::partition::CellId;
@@ -25,6 +27,7 @@ pub struct InputMaterial<'a> {
     /// The upper bound at the start.
     pub(super) upper: f64,
     pub(super) scene: Scene<'a>,
+    pub(super) view: View,
 }
 
 impl<'a> InputMaterial<'a> {
@@ -85,7 +88,16 @@ impl<'a> InputMaterial<'a> {
             () if upper < threshold => Some(false),
             () => None,
         });
-        Self { run, solution, controller, options, satisfied, upper, scene }
+        let view = View::first(&scene);
+        Self { run, solution, controller, options, satisfied, upper, scene, view }
+    }
+
+    /// The same with another plane in the first view.
+    ///
+    /// # Errors
+    /// [`ViewError`] if there is no such plane.
+    pub fn seen(self, choice: &ViewChoice) -> Result<Self, ViewError> {
+        Ok(Self { view: View::chosen(&self.scene, choice)?, ..self })
     }
 }
 

@@ -1,9 +1,11 @@
 //! What a report of actions that are targets is made of.
 
+use super::choice::{ViewChoice, ViewError};
 use super::numbers::{subscripted, tuple};
 use super::outlines::Outlined;
 use super::scene::{Scene, SceneActions, faces};
 use super::values::StepValues;
+use super::view::View;
 use crate::controller::{Controller, Noise, Simulation};
 use crate::partition::{CellId, CellKind};
 use crate::problem::{PlantNoise, Problem, StepNoise};
@@ -41,6 +43,7 @@ pub struct Material<'a> {
     /// The mean of the samples of the grouped noise.
     pub(super) noise_mean: Vec<f64>,
     pub(super) scene: Scene<'a>,
+    pub(super) view: View,
 }
 
 impl<'a> Material<'a> {
@@ -96,7 +99,16 @@ impl<'a> Material<'a> {
             actions: Box::new(Steering { run, controller, noise_mean: noise_mean.clone() }),
             faces: faces(problem.grid()),
         };
-        Self { run, answer, controller, options, noise_mean, scene }
+        let view = View::first(&scene);
+        Self { run, answer, controller, options, noise_mean, scene, view }
+    }
+
+    /// The same with another plane in the first view.
+    ///
+    /// # Errors
+    /// [`ViewError`] if there is no such plane.
+    pub fn seen(self, choice: &ViewChoice) -> Result<Self, ViewError> {
+        Ok(Self { view: View::chosen(&self.scene, choice)?, ..self })
     }
 
     pub(super) fn problem(&self) -> &'a Problem {

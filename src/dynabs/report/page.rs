@@ -100,8 +100,7 @@ Distributions</cite>, European Control Conference 2024.";
 /// # Errors
 /// [`ReportError`] if the embedded template is broken.
 pub fn page(material: &Material<'_>) -> Result<String, ReportError> {
-    let Material { run, controller, options, scene, .. } = material;
-    let view = View::first(scene);
+    let Material { run, controller, options, scene, view, .. } = material;
     let sources = Sources {
         document: &run.document,
         manifest: &run.manifest,
@@ -112,12 +111,12 @@ pub fn page(material: &Material<'_>) -> Result<String, ReportError> {
     let specifics = Specifics {
         leads: TO_TARGETS,
         has_upper: false,
-        embedded: embed(scene, &view, || steering(material)),
+        embedded: embed(scene, view, || steering(material)),
         model: formulas::model(material),
         sizes: tables::sizes(material),
         method: METHOD,
     };
-    rendered(scene, &view, &sources, specifics)
+    rendered(scene, view, &sources, specifics)
 }
 
 /// The same for a run whose actions are inputs.
@@ -125,8 +124,7 @@ pub fn page(material: &Material<'_>) -> Result<String, ReportError> {
 /// # Errors
 /// [`ReportError`] if the embedded template is broken.
 pub fn input_page(material: &InputMaterial<'_>) -> Result<String, ReportError> {
-    let InputMaterial { run, controller, options, scene, .. } = material;
-    let view = View::first(scene);
+    let InputMaterial { run, controller, options, scene, view, .. } = material;
     let sources = Sources {
         document: &run.document,
         manifest: &run.manifest,
@@ -137,12 +135,12 @@ pub fn input_page(material: &InputMaterial<'_>) -> Result<String, ReportError> {
     let specifics = Specifics {
         leads: TO_IMAGES,
         has_upper: true,
-        embedded: embed(scene, &view, || inputs(material)),
+        embedded: embed(scene, view, || inputs(material)),
         model: input_formulas::model(material),
         sizes: tables::input_sizes(material),
         method: "",
     };
-    rendered(scene, &view, &sources, specifics)
+    rendered(scene, view, &sources, specifics)
 }
 
 fn rendered(

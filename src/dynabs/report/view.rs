@@ -29,18 +29,6 @@ pub(super) struct View {
 }
 
 impl View {
-    /// What is shown at first, and on paper: the plane through the start, or the only dimension over time.
-    pub(super) fn first(scene: &Scene<'_>) -> Self {
-        let slice = match scene.start_cell {
-            Some(cell) => scene.grid.coordinates(cell),
-            None => vec![0; scene.dimension()],
-        };
-        match scene.dimension() {
-            1 => Self { across: Axis::Time, up: 0, slice, step: 0 },
-            _ => Self { across: Axis::State(0), up: 1, slice, step: 0 },
-        }
-    }
-
     /// The cell at column `i` and row `j`, and the step that it is looked at.
     pub(super) fn cell(&self, scene: &Scene<'_>, i: u32, j: u32) -> (CellId, usize) {
         let mut coordinates = self.slice.clone();
