@@ -143,7 +143,7 @@ fn coordinate(scene: &Scene<'_>, part: &'static str, name: &str) -> Result<usize
 }
 
 /// A name that can be typed.
-fn plain(scene: &Scene<'_>, dimension: usize) -> String {
+pub(super) fn plain(scene: &Scene<'_>, dimension: usize) -> String {
     let name = &scene.names[dimension];
     if name.is_ascii() { name.clone() } else { format!("x{}", dimension + 1) }
 }

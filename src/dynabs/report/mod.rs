@@ -4,6 +4,7 @@
 //! complete on paper and without JavaScript. The script that comes with it redraws the plots from the embedded
 //! numbers when another plane, step or cell is chosen.
 
+mod budget;
 mod choice;
 mod data;
 mod formulas;
@@ -11,6 +12,7 @@ mod frame;
 mod heat_map;
 mod input_formulas;
 mod input_material;
+mod legend;
 mod markup;
 mod material;
 mod numbers;
