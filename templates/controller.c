@@ -2,170 +2,91 @@
  *
 {{ promise }}
  *
- * {{ function }}(x, k, {% if memory.is_some() %}memory, {% endif %}u)
- *
-{% match law %}{% when LawSource::Steering(_) %} * looks at the state x after k groups of {{ group }} steps. If it returns STEER, u holds the inputs of the next
- * group, those of the first step first, each of them in U. Any other status is final and leaves u as it was:
-{% if memory.is_some() %} * a run begins with *memory = {{ upper }}_START; what has been done so far is remembered there, so every state at the end of
- * a group is looked at once, in order.
-{% endif %}{% when LawSource::Centered(_) %} * looks at the state x after k steps.{% if memory.is_some() %} A run begins with *memory = {{ upper }}_START; what has been done so far
- * is remembered there, so every state of the run is looked at once, in order.{% endif %} If it returns APPLY, u holds the input of the next step. Any other status is
- * final and leaves u as it was:
-{% endmatch %} *
- *   REACHED    {% if memory.is_some() %}the task is done{% else %}the goal is reached: the task is done{% endif %}
- *   UNSAFE     {% if memory.is_some() %}the task has failed{% else %}{% match law %}{% when LawSource::Steering(_) %}the cell of x meets the unsafe region{% when LawSource::Centered(_) %}the cell of x is not safe{% endmatch %}: the task has failed{% endif %}
- *   OUTSIDE    x is outside the partition, or not a number: the task has failed
- *   NO_ACTION  {% match law %}{% when LawSource::Steering(_) %}no target can be steered to from the whole cell of x without leaving U{% when LawSource::Centered(_) %}nothing can be done from the cell of x{% endmatch %}
- *   OVER       the horizon has passed; a horizon of 0 is unlimited, then k is ignored
- *
-{% match law %}{% when LawSource::Steering(_) %} * No allocation, no {% if memory.is_some() %}other {% endif %}state, no library: every table is constant, and so is the memory used. Compile as C99
+{% include "controller_usage.txt" %}
+{% if tables.steers %} * No allocation, no {% if tables.memory.is_some() %}other {% endif %}state, no library: every table is constant, and so is the memory used. Compile as C99
  * without contraction of products and sums, and the results are those of dynabs bit by bit:
  *
  *   cc -std=c99 -O2 -ffp-contract=off -c {{ file }}
  *
  * (With contraction u differs in the last digits, and still is in U. On x87 add -msse2 -mfpmath=sse.)
  */
-{% when LawSource::Centered(_) %} * No allocation, no {% if memory.is_some() %}other {% endif %}state: every table is constant, and so is the memory used. Compile as C99 without contraction
+{% else %} * No allocation, no {% if tables.memory.is_some() %}other {% endif %}state: every table is constant, and so is the memory used. Compile as C99 without contraction
  * of products and sums, and the results are those of dynabs bit by bit:
  *
  *   cc -std=c99 -O2 -ffp-contract=off -c {{ file }}      (link with -lm)
  */
 #include <math.h>
-{% endmatch %}#include <stdint.h>
+{% endif %}#include <stdint.h>
 
 #ifdef __clang__
 #pragma STDC FP_CONTRACT OFF
 #endif
 
-#define {{ upper }}_STATES {{ states }}
-#define {{ upper }}_INPUTS {{ inputs }}
-{% if let LawSource::Steering(_) = law %}#define {{ upper }}_GROUP {{ group }}
-{% endif %}#define {{ upper }}_HORIZON {{ horizon }}u
-{% if let Some(m) = memory %}#define {{ upper }}_START {{ m.memories }}
+{% include "controller_interface.h" %}
+
+{% if tables.steers %}/* u = constant + target_gain * target + state_gain * x, for all steps of a group. */
+{{ self.table("constant")? }}
+
+{{ self.table("target_gain")? }}
+
+{{ self.table("state_gain")? }}
+{% else %}/* The period of every coordinate, 0 where it is not periodic. */
+{{ self.table("period")? }}
 {% endif %}
-enum {{ prefix }}_status {
-    {{ upper }}_{{ act }} = 0,
-    {{ upper }}_REACHED = 1,
-    {{ upper }}_UNSAFE = 2,
-    {{ upper }}_OUTSIDE = 3,
-    {{ upper }}_NO_ACTION = 4,
-    {{ upper }}_OVER = 5
-};
-
-enum {{ prefix }}_status {{ function }}(
-    const double x[{{ upper }}_STATES], uint32_t k,{% if memory.is_some() %} uint32_t *memory,{% endif %} double {{ array }});
-
-{% match law %}{% when LawSource::Steering(s) %}/* u = constant + target_gain * target + state_gain * x, for all steps of a group. */
-static const double constant[{{ upper }}_GROUP * {{ upper }}_INPUTS] = {
-{{ s.constant }}
-};
-
-static const double target_gain[{{ upper }}_GROUP * {{ upper }}_INPUTS][{{ upper }}_STATES] = {
-{{ s.target_gain }}
-};
-
-static const double state_gain[{{ upper }}_GROUP * {{ upper }}_INPUTS][{{ upper }}_STATES] = {
-{{ s.state_gain }}
-};
-{% when LawSource::Centered(c) %}/* The period of every coordinate, 0 where it is not periodic. */
-static const double period[{{ upper }}_STATES] = {
-{{ c.period }}
-};
-{% endmatch %}
 /* The faces of the cells, dimension after dimension, and where each dimension starts. */
-static const double faces[{{ num_faces }}] = {
-{{ faces }}
-};
+{{ self.table("faces")? }}
 
-static const uint32_t first_face[{{ upper }}_STATES + 1] = {
-{{ first_face }}
-};
+{{ self.table("first_face")? }}
 
-{% if let LawSource::Centered(c) = law %}/* The centers of the cells, dimension after dimension: one less than faces. */
-static const double centers[{{ c.num_centers }}] = {
-{{ c.centers }}
-};
+{% if !tables.steers %}/* The centers of the cells, dimension after dimension: one less than faces. */
+{{ self.table("centers")? }}
 
 {% endif %}/* How far apart in the numbering two neighbouring cells in each dimension are. */
-static const uint32_t stride[{{ upper }}_STATES] = {
-{{ stride }}
-};
+{{ self.table("stride")? }}
 
-{% if let Some(m) = memory %}/* The class of every cell. The state in a cell of class i is in the regions of certain[i], and perhaps in others of
+{% if let Some(m) = tables.memory %}/* The class of every cell. The state in a cell of class i is in the regions of certain[i], and perhaps in others of
  * possible[i]: a bit each. */
-static const uint32_t class_of[{{ num_cells }}] = {
-{{ m.class_of }}
-};
+{{ self.table("class_of")? }}
 
-static const uint32_t certain[{{ m.classes }}] = {
-{{ m.certain }}
-};
+{{ self.table("certain")? }}
 
-static const uint32_t possible[{{ m.classes }}] = {
-{{ m.possible }}
-};
+{{ self.table("possible")? }}
 
 /* What a memory becomes with the regions that a state is in, row by row; the last row is for the first state of a run.
- * {{ m.done }} is done, {{ m.failed }} failed. */
-static const uint32_t next_memory[({{ m.memories }} + 1) * {{ m.letters }}] = {
-{{ m.next }}
-};
+ * {{ m.done() }} is done, {{ m.failed() }} failed. */
+{{ self.table("next_memory")? }}
 
 /* Region r has the shapes from first_shape[r] on, shape s the half-spaces from first_half_space[s] on: normal * x < offset
  * if it is strict, else <=. */
-static const uint32_t first_shape[{{ m.regions }} + 1] = {
-{{ m.first_shape }}
-};
+{{ self.table("first_shape")? }}
 
-static const uint32_t first_half_space[{{ m.shapes }} + 1] = {
-{{ m.first_half_space }}
-};
+{{ self.table("first_half_space")? }}
 
-static const double normal[{{ m.half_spaces }}][{{ upper }}_STATES] = {
-{{ m.normal }}
-};
+{{ self.table("normal")? }}
 
-static const double offset[{{ m.half_spaces }}] = {
-{{ m.offset }}
-};
+{{ self.table("offset")? }}
 
-static const uint8_t strict[{{ m.half_spaces }}] = {
-{{ m.strict }}
-};
+{{ self.table("strict")? }}
 
 {% else %}/* What a cell is: 0 neither, 1 goal, 2 unsafe. */
-static const uint8_t kind[{{ num_cells }}] = {
-{{ kind }}
-};
+{{ self.table("kind")? }}
 
-{% endif %}/* {% if memory.is_some() %}Memory m in cell i is number m * {{ num_cells }} + i. Number{% else %}Cell{% endif %} i has the entries first_entry[i] to first_entry[i + 1] - 1. Each of them {% match law %}{% when LawSource::Steering(_) %}steers to its target from
+{% endif %}/* {% if tables.memory.is_some() %}Memory m in cell i is number m * {{ tables.cells }} + i. Number{% else %}Cell{% endif %} i has the entries first_entry[i] to first_entry[i + 1] - 1. Each of them {% if tables.steers %}steers to its target from
  * steps_left groups before the horizon on, or earlier, until the next entry takes over. */
-{% when LawSource::Centered(_) %}applies its input from steps_left
+{% else %}applies its input from steps_left
  * steps before the horizon on, or earlier, until the next entry takes over. */
-{% endmatch %}static const uint32_t first_entry[{{ num_starts }} + 1] = {
-{{ first_entry }}
-};
+{% endif %}{{ self.table("first_entry")? }}
 
-static const uint32_t steps_left[{{ num_entries }}] = {
-{{ steps_left }}
-};
+{{ self.table("steps_left")? }}
 
-static const uint32_t {{ action_of }}[{{ num_entries }}] = {
-{{ actions }}
-};
+{{ self.table("action_of")? }}
 
-{% match law %}{% when LawSource::Steering(s) %}static const double target[{{ s.num_targets }}][{{ upper }}_STATES] = {
-{{ s.target }}
-};
-{% when LawSource::Centered(c) %}/* u = nominal - gain * (x - center of the cell). */
-static const double nominal[{{ c.num_nominal }}][{{ c.array_inputs }}] = {
-{{ c.nominal }}
-};
+{% if tables.steers %}{{ self.table("target")? }}
+{% else %}/* u = nominal - gain * (x - center of the cell). */
+{{ self.table("nominal")? }}
 
-static const double gain[{{ c.array_inputs }}][{{ upper }}_STATES] = {
-{{ c.gain }}
-};
-{% endmatch %}
+{{ self.table("gain")? }}
+{% endif %}
 /* How many of the ascending faces are at or below x. */
 static uint32_t faces_passed(const double *face, uint32_t count, double x)
 {
@@ -181,7 +102,7 @@ static uint32_t faces_passed(const double *face, uint32_t count, double x)
     return low;
 }
 
-{% if memory.is_some() %}/* Whether a state is in a region. */
+{% if tables.memory.is_some() %}/* Whether a state is in a region. */
 static int contains(uint32_t region, const double *y)
 {
     uint32_t s, h, j;
@@ -189,7 +110,7 @@ static int contains(uint32_t region, const double *y)
         int inside = 1;
         for (h = first_half_space[s]; inside && h < first_half_space[s + 1]; ++h) {
             double sum = 0;
-            for (j = 0; j < {{ upper }}_STATES; ++j) {
+            for (j = 0; j < {{ names.upper }}_STATES; ++j) {
                 const double product = normal[h][j] * y[j];
                 sum += product;
             }
@@ -202,18 +123,18 @@ static int contains(uint32_t region, const double *y)
     return 0;
 }
 
-{% endif %}enum {{ prefix }}_status {{ function }}(
-    const double x[{{ upper }}_STATES], uint32_t k,{% if memory.is_some() %} uint32_t *memory,{% endif %} double {{ array }})
+{% endif %}enum {{ names.prefix }}_status {{ names.function }}(
+    const double x[{{ names.upper }}_STATES], uint32_t k,{% if tables.memory.is_some() %} uint32_t *memory,{% endif %} double {{ names.array }})
 {
-{% match law %}{% when LawSource::Steering(_) %}    const double *aim;
+{% if tables.steers %}    const double *aim;
     uint32_t cell = 0, left, entry, i, j;
-    for (j = 0; j < {{ upper }}_STATES; ++j) {
+    for (j = 0; j < {{ names.upper }}_STATES; ++j) {
         const uint32_t count = first_face[j + 1] - first_face[j];
         const uint32_t passed = faces_passed(faces + first_face[j], count, x[j]);
         if (passed == 0 || passed == count) {
-{% when LawSource::Centered(_) %}    double y[{{ upper }}_STATES], c[{{ upper }}_STATES];
+{% else %}    double y[{{ names.upper }}_STATES], c[{{ names.upper }}_STATES];
     uint32_t cell = 0, left, entry, i, j;
-    for (j = 0; j < {{ upper }}_STATES; ++j) {
+    for (j = 0; j < {{ names.upper }}_STATES; ++j) {
         const uint32_t count = first_face[j + 1] - first_face[j];
         const double *face = faces + first_face[j];
         uint32_t passed;
@@ -228,13 +149,13 @@ static int contains(uint32_t region, const double *y)
         }
         passed = faces_passed(face, count, y[j]);
         if (passed == 0 || passed == count) {
-{% endmatch %}{% if let Some(m) = memory %}            *memory = {{ m.failed }};
-{% endif %}            return {{ upper }}_OUTSIDE;
+{% endif %}{% if let Some(m) = tables.memory %}            *memory = {{ m.failed() }};
+{% endif %}            return {{ names.upper }}_OUTSIDE;
         }
-{% if let LawSource::Centered(_) = law %}        c[j] = centers[first_face[j] - j + passed - 1];
+{% if !tables.steers %}        c[j] = centers[first_face[j] - j + passed - 1];
 {% endif %}        cell += (passed - 1) * stride[j];
     }
-{% if let Some(m) = memory %}    if (*memory <= {{ m.memories }}) {
+{% if let Some(m) = tables.memory %}    if (*memory <= {{ m.memories }}) {
         const uint32_t class = class_of[cell];
         uint32_t letter = certain[class];
         for (i = 0; i < {{ m.regions }}; ++i) {
@@ -245,24 +166,24 @@ static int contains(uint32_t region, const double *y)
         }
         *memory = next_memory[*memory * {{ m.letters }} + letter];
     }
-    if (*memory == {{ m.done }}) {
-        return {{ upper }}_REACHED;
+    if (*memory == {{ m.done() }}) {
+        return {{ names.upper }}_REACHED;
     }
     if (*memory >= {{ m.memories }}) {
-        return {{ upper }}_UNSAFE;
+        return {{ names.upper }}_UNSAFE;
     }
-    cell += *memory * {{ num_cells }};
+    cell += *memory * {{ tables.cells }};
 {% else %}    if (kind[cell] == 1) {
-        return {{ upper }}_REACHED;
+        return {{ names.upper }}_REACHED;
     }
     if (kind[cell] == 2) {
-        return {{ upper }}_UNSAFE;
+        return {{ names.upper }}_UNSAFE;
     }
-{% endif %}#if {{ upper }}_HORIZON > 0
-    if (k >= {{ upper }}_HORIZON) {
-        return {{ upper }}_OVER;
+{% endif %}#if {{ names.upper }}_HORIZON > 0
+    if (k >= {{ names.upper }}_HORIZON) {
+        return {{ names.upper }}_OVER;
     }
-    left = {{ upper }}_HORIZON - k;
+    left = {{ names.upper }}_HORIZON - k;
 #else
     (void)k;
     left = 1;
@@ -272,28 +193,28 @@ static int contains(uint32_t region, const double *y)
         --entry;
     }
     if (entry == first_entry[cell]) {
-        return {{ upper }}_NO_ACTION;
+        return {{ names.upper }}_NO_ACTION;
     }
-{% match law %}{% when LawSource::Steering(_) %}    aim = target[target_of[entry - 1]];
-    for (i = 0; i < {{ upper }}_GROUP * {{ upper }}_INPUTS; ++i) {
+{% if tables.steers %}    aim = target[action_of[entry - 1]];
+    for (i = 0; i < {{ names.upper }}_GROUP * {{ names.upper }}_INPUTS; ++i) {
         double sum = constant[i];
-        for (j = 0; j < {{ upper }}_STATES; ++j) {
+        for (j = 0; j < {{ names.upper }}_STATES; ++j) {
             const double product = target_gain[i][j] * aim[j];
             sum += product;
         }
-        for (j = 0; j < {{ upper }}_STATES; ++j) {
+        for (j = 0; j < {{ names.upper }}_STATES; ++j) {
             const double product = state_gain[i][j] * x[j];
             sum += product;
         }
-        u[i / {{ upper }}_INPUTS][i % {{ upper }}_INPUTS] = sum;
+        u[i / {{ names.upper }}_INPUTS][i % {{ names.upper }}_INPUTS] = sum;
     }
-{% when LawSource::Centered(_) %}    for (i = 0; i < {{ upper }}_INPUTS; ++i) {
-        double sum = nominal[input_of[entry - 1]][i];
-        for (j = 0; j < {{ upper }}_STATES; ++j) {
+{% else %}    for (i = 0; i < {{ names.upper }}_INPUTS; ++i) {
+        double sum = nominal[action_of[entry - 1]][i];
+        for (j = 0; j < {{ names.upper }}_STATES; ++j) {
             const double product = gain[i][j] * (y[j] - c[j]);
             sum -= product;
         }
         u[i] = sum;
     }
-{% endmatch %}    return {{ upper }}_{{ act }};
+{% endif %}    return {{ names.upper }}_{{ names.act }};
 }

@@ -32,6 +32,13 @@ const MISTAKES: &[Mistake] = &[
     mistake(ONE_LAYER, "/dynamics/q=[1,2,3]", &["/dynamics/q", "3 numbers"]),
     mistake(ONE_LAYER, "/dynamics/group_steps=1", &["/dynamics/group_steps", "rank 1", "\"auto\" or 2"]),
     mistake(ONE_LAYER, "/dynamics/group_steps=0", &["/dynamics/group_steps", "positive integer or \"auto\""]),
+    mistake(ONE_LAYER, "/dynamics/B=[[],[]]", &["/dynamics/B", "no inputs", "leave B and /input out"]),
+    mistake(
+        ONE_LAYER,
+        "/task/goal=[{\"lower\":[50,0],\"upper\":[60,4]}]",
+        &["/task/goal", "outside of the partition", "Enlarge /partition"],
+    ),
+    mistake(ONE_LAYER, "/task/goal=[]", &["/task/goal", "an empty list", "\"type\": \"stay\""]),
     // Inputs.
     mistake(ONE_LAYER, "/input/lower=[61]", &["/input", "61", "60", "empty"]),
     mistake(ONE_LAYER, "/input={\"G\":[[1],[-1]],\"g\":[1,-2]}", &["/input", "no point in common"]),
@@ -52,6 +59,35 @@ const MISTAKES: &[Mistake] = &[
     mistake(TWO_LAYER, "/stabilizer/lqr/Q=[[1,0],[0,0]]", &["/stabilizer/lqr/Q", "positive definite"]),
     mistake(TWO_LAYER, "/stabilizer/lqr/Q=[[1,0],[0.5,1]]", &["/stabilizer/lqr/Q", "symmetric", "0.5"]),
     mistake(TWO_LAYER, "/stabilizer/gain=[[1,0],[0,1]]", &["/stabilizer", "both lqr and gain"]),
+    mistake(TWO_LAYER, "/stabilizer/track=\"auto\"", &["/stabilizer", "lqr, track", "exactly one of"]),
+    mistake(TWO_LAYER, "/stabilizer={\"lqr\":{\"Q\":[[1]],\"R\":[[1]]}}", &["/stabilizer", "abstract_input"]),
+    // The same with a plan.
+    mistake(TWO_LAYER, "/stabilizer={\"track\":\"fast\"}", &["/stabilizer/track", "\"auto\" or a list"]),
+    mistake(
+        TWO_LAYER,
+        "/stabilizer={\"track\":\"auto\",\"about\":[0,0]}",
+        &["/stabilizer/about", "beside track", "where the plan goes"],
+    ),
+    mistake(
+        TWO_LAYER,
+        "/stabilizer={\"track\":\"auto\",\"abstract_input\":{\"lower\":[1,1],\"upper\":[2,2]}}",
+        &["/stabilizer/abstract_input", "without 0", "u′ = 0"],
+    ),
+    mistake(
+        TWO_LAYER,
+        "/stabilizer={\"track\":[{\"from\":[-20,0],\"to\":[50,0]}]}",
+        &["/stabilizer/track/0/to", "[50", "[-41, 41)"],
+    ),
+    mistake(
+        TWO_LAYER,
+        "/stabilizer={\"track\":[{\"from\":[-20,0],\"to\":[0]}]}",
+        &["/stabilizer/track/0/to", "1 number", "expected 2"],
+    ),
+    mistake(
+        TWO_LAYER,
+        "/stabilizer={\"track\":[{\"from\":[-20,0],\"to\":[0,0]},{\"from\":[-20.5,0.5],\"to\":[0,0]}]}",
+        &["/stabilizer/track/1/from", "one heading for every cell"],
+    ),
     // Noise.
     mistake(
         ROOM,

@@ -1,8 +1,7 @@
 //! The controller: the policy's, in U, at its targets, and the same in every form it is written in.
 use crate::common::controllers::Loop;
 use crate::common::shipped_models;
-use crate::common::{c_compiler, compile_c};
-use dynabs::controller::export::{c_source, write_csv, write_json};
+use dynabs::controller::export::{write_csv, write_json};
 use dynabs::controller::{Controller, Decision, InputCheck, Noise, RunMemory, Simulation};
 use dynabs::partition::{CellId, CellKind};
 use dynabs::problem::GaussianNoise;
@@ -10,8 +9,6 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::fs;
-use std::process::Command;
 
 const UNBOUNDED: &str = r#"/task/horizon="infinite""#;
 
@@ -192,94 +189,6 @@ fn csv_covers_every_step_once() {
         |&(cell, k): &(u32, u64)| matches!(controller.decide_in(CellId(cell), k), Decision::Act { .. });
     let all = (0..grid.num_cells()).flat_map(|cell| (0..8).map(move |k| (cell, k)));
     assert_eq!(all.filter(steering).count(), seen.len());
-}
-
-/// Reads states and steps from stdin, writes statuses and inputs to stdout.
-const HARNESS: &str = r#"
-#include "controller.c"
-#include <stdio.h>
-int main(void)
-{
-    double x[PREFIX_STATES];
-    uint32_t k;
-    while (fread(x, sizeof x, 1, stdin) == 1 && fread(&k, sizeof k, 1, stdin) == 1) {
-        double u[PREFIX_GROUP][PREFIX_INPUTS] = {{0}};
-        const uint32_t status = prefix_control(x, k, u);
-        if (fwrite(&status, sizeof status, 1, stdout) != 1 || fwrite(u, sizeof u, 1, stdout) != 1) {
-            return 1;
-        }
-    }
-    return 0;
-}
-"#;
-
-fn compare_with_c(compiler: &str, closed: &Loop, seed: u64) {
-    let controller = &closed.controller;
-    let scratch = tempfile::TempDir::new().unwrap();
-    let source = c_source(controller, closed.problem.name(), "controller.c").unwrap();
-    let name = closed.problem.name().to_lowercase();
-    let harness = HARNESS.replace("PREFIX", &name.to_uppercase()).replace("prefix", &name);
-    compile_c(compiler, scratch.path(), &source, &harness);
-
-    let mut rng = ChaCha12Rng::seed_from_u64(seed);
-    let mut queries: Vec<(Vec<f64>, u32)> = (0..100_000)
-        .map(|_| (closed.random_state(&mut rng), (rng.next_u64() % (steps(controller) + 2)) as u32))
-        .collect();
-    queries[0].0[0] = f64::NAN;
-    queries[1].0[0] = f64::INFINITY;
-    let input: Vec<u8> = (queries.iter())
-        .flat_map(|(x, k)| x.iter().flat_map(|x| x.to_ne_bytes()).chain(k.to_ne_bytes()).collect::<Vec<_>>())
-        .collect();
-    let file = scratch.path().join("states");
-    fs::write(&file, input).unwrap();
-    let program =
-        Command::new(scratch.path().join("main")).stdin(fs::File::open(file).unwrap()).output().unwrap();
-    assert!(program.status.success());
-
-    let size = 4 + 8 * controller.inputs();
-    assert_eq!(program.stdout.len(), size * queries.len());
-    let mut statuses = BTreeMap::new();
-    for ((x, k), answer) in queries.iter().zip(program.stdout.chunks_exact(size)) {
-        let mut u = vec![0.0; controller.inputs()];
-        let status: u32 = match controller.control(x, u64::from(*k), &mut RunMemory::default(), &mut u) {
-            Decision::Act { .. } => 0,
-            Decision::Reached => 1,
-            Decision::Unsafe => 2,
-            Decision::Outside => 3,
-            Decision::NoAction => 4,
-            Decision::Over => 5,
-        };
-        assert_eq!(
-            u32::from_ne_bytes(answer[..4].try_into().unwrap()),
-            status,
-            "{name}: status in {x:?} at {k}"
-        );
-        for (u, bytes) in u.iter().zip(answer[4..].chunks_exact(8)) {
-            let c = f64::from_ne_bytes(bytes.try_into().unwrap());
-            // Bit by bit is what the file promises; 1e-12 would do.
-            assert_eq!(*u, c, "{name}: in {x:?} at {k}");
-        }
-        *statuses.entry(status).or_insert(0) += 1;
-    }
-    assert!(statuses[&0] > 10_000 && statuses[&1] > 10 && statuses[&3] > 1_000, "{name}: {statuses:?}");
-}
-
-#[test]
-fn c_code_equals_the_library() {
-    let Some(compiler) = c_compiler() else {
-        eprintln!("SKIPPED: no C compiler (cc, gcc, clang) here, the C code was not tested");
-        return;
-    };
-    let cases: [(&str, &[&str]); 5] = [
-        ("room_temperature", &[r#"/task/unsafe=[{"lower":[10],"upper":[null]}]"#]),
-        ("room_temperature", &[UNBOUNDED]),
-        ("double_integrator", &[]),
-        ("double_integrator_two_layer", &[]),
-        ("spacecraft_aligned_two_layer", &[]),
-    ];
-    for (seed, (model, sets)) in (1..).zip(cases) {
-        compare_with_c(compiler, &Loop::of(model, sets), seed);
-    }
 }
 
 #[test]

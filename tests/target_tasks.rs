@@ -1,20 +1,15 @@
-//! Tasks over named regions for actions that are targets: values, what the closed loop does, the C code.
+//! Tasks over named regions for actions that are targets: values, what the closed loop does.
 
 use crate::common::controllers::Loop;
 use crate::common::tasks::{DELIVERY, formula, sequence};
-use crate::common::{c_compiler, compile_c};
-use dynabs::controller::export::{c_source, write_csv, write_json};
-use dynabs::controller::{Decision, Noise, RunMemory, Simulation};
+use dynabs::controller::export::{write_csv, write_json};
+use dynabs::controller::{Noise, Simulation};
 use dynabs::guarantee::Coverage;
 use dynabs::model_file::Document;
 use dynabs::problem::Problem;
 use dynabs::task::{Aim, Safety};
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha12Rng;
 use serde_json::{Value, json};
-use std::io::{Read, Write};
 use std::path::Path;
-use std::process::{Command, Stdio};
 
 /// A package to be picked up at `a` and brought to `c` without meeting `b`. The faces of `a` and `b` cut cells, and `c` is a
 /// triangle.
@@ -167,83 +162,6 @@ fn what_cannot_be_asked_is_explained() {
     let mut reference = model(&sequence(8));
     reference["probabilities"] = json!({"mode": "reference"});
     assert!(stated(&reference).unwrap_err().contains("the published tool has no other"));
-}
-
-/// Reads states and steps of runs, one after the other, and writes what the controller says.
-const HARNESS: &str = r#"
-#include <stdio.h>
-#include "controller.c"
-int main(void) {
-    double x[ROOM_STATES];
-    uint32_t k, memory = ROOM_START;
-    while (fread(x, sizeof x, 1, stdin) == 1 && fread(&k, sizeof k, 1, stdin) == 1) {
-        double u[ROOM_GROUP][ROOM_INPUTS] = {{0}};
-        uint32_t status;
-        if (k == 0) {
-            memory = ROOM_START;
-        }
-        status = room_control(x, k, &memory, u);
-        if (fwrite(&status, sizeof status, 1, stdout) != 1 || fwrite(u, sizeof u, 1, stdout) != 1) {
-            return 1;
-        }
-    }
-    return 0;
-}
-"#;
-
-#[test]
-fn c_code_follows_the_memory() {
-    let Some(compiler) = c_compiler() else {
-        eprintln!("SKIPPED: no C compiler (cc, gcc, clang) here, the C code was not tested");
-        return;
-    };
-    let mut done = 0;
-    for task in [sequence(8), formula("(F a) & G !b", "ltlf", 4)] {
-        let Loop { problem, controller, .. } = solved(&task);
-        let scratch = tempfile::TempDir::new().unwrap();
-        let source = c_source(&controller, problem.name(), "controller.c").unwrap();
-        compile_c(compiler, scratch.path(), &source, HARNESS);
-        let mut rng = ChaCha12Rng::seed_from_u64(3);
-        let mut unit = || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
-        let looks: Vec<([f64; 2], u32)> =
-            (0..20_000).map(|i| ([unit() * 6.1 - 3.05, unit() * 6.1 - 3.05], i % 10)).collect();
-        let looked = scratch.path().join("looks");
-        let mut file = std::fs::File::create(&looked).unwrap();
-        for (x, k) in &looks {
-            file.write_all(&[x[0].to_ne_bytes(), x[1].to_ne_bytes()].concat()).unwrap();
-            file.write_all(&k.to_ne_bytes()).unwrap();
-        }
-        drop(file);
-        let mut program = Command::new(scratch.path().join("main"))
-            .stdin(Stdio::from(std::fs::File::open(&looked).unwrap()))
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut answers = vec![];
-        program.stdout.take().unwrap().read_to_end(&mut answers).unwrap();
-        assert!(program.wait().unwrap().success());
-        let mut memory = RunMemory::default();
-        for ((x, k), answer) in looks.iter().zip(answers.chunks_exact(20)) {
-            if *k == 0 {
-                memory = RunMemory::default();
-            }
-            let mut u = [0.0; 2];
-            let status: u32 = match controller.control(x, u64::from(*k), &mut memory, &mut u) {
-                Decision::Act { .. } => 0,
-                Decision::Reached => 1,
-                Decision::Unsafe => 2,
-                Decision::Outside => 3,
-                Decision::NoAction => 4,
-                Decision::Over => 5,
-            };
-            done += u32::from(status == 1);
-            assert_eq!(u32::from_ne_bytes(answer[..4].try_into().unwrap()), status, "{x:?} at {k}");
-            for (u, bytes) in u.iter().zip(answer[4..].chunks_exact(8)) {
-                assert_eq!(*u, f64::from_ne_bytes(bytes.try_into().unwrap()), "{x:?} at {k}");
-            }
-        }
-    }
-    assert!(done > 1000, "{done}");
 }
 
 #[test]

@@ -1,10 +1,10 @@
-//! Tasks over named regions: values, what the closed loop does, the C code.
+//! Tasks over named regions: values, what the closed loop does.
 
 use crate::common::controllers::Loop;
+use crate::common::root;
 use crate::common::tasks::{DELIVERY, formula, sequence};
-use crate::common::{c_compiler, compile_c, root};
 use dynabs::abstraction::inputs::InputAbstraction;
-use dynabs::controller::export::{c_source, write_csv, write_input_json};
+use dynabs::controller::export::{write_csv, write_input_json};
 use dynabs::controller::{Controller, Decision, Noise, ParameterChoice, RunMemory, Simulation};
 use dynabs::landing::LandingSolution;
 use dynabs::model_file::{Document, StatedProblem};
@@ -12,12 +12,9 @@ use dynabs::problem::InputProblem;
 use dynabs::task::{Aim, Safety};
 use imdp::property::Resolution;
 use imdp::solver::{Answer, SolverOptions};
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha12Rng;
 use serde_json::{Value, json};
+use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
-use std::{fs, io::Write};
 
 /// A package to be picked up at `a` and brought to `c` without meeting `b`, in a small room. The faces of `a` cut cells, and
 /// `c` is a triangle.
@@ -171,91 +168,6 @@ fn the_controller_remembers() {
     assert_eq!(look([9.0, 0.0], 5).0, Decision::Outside);
 }
 
-/// Reads states and steps of runs, one after the other, and writes what the controller says.
-const HARNESS: &str = r#"
-#include <stdio.h>
-#include "controller.c"
-int main(void) {
-    double x[ROOM_STATES];
-    uint32_t k, memory = ROOM_START;
-    while (fread(x, sizeof x, 1, stdin) == 1 && fread(&k, sizeof k, 1, stdin) == 1) {
-        double u[ROOM_INPUTS] = {0};
-        uint32_t status;
-        if (k == 0) {
-            memory = ROOM_START;
-        }
-        status = room_control(x, k, &memory, u);
-        if (fwrite(&status, sizeof status, 1, stdout) != 1 || fwrite(u, sizeof u, 1, stdout) != 1) {
-            return 1;
-        }
-    }
-    return 0;
-}
-"#;
-
-#[test]
-fn c_code_follows_the_memory() {
-    let Some(compiler) = c_compiler() else {
-        eprintln!("SKIPPED: no C compiler (cc, gcc, clang) here, the C code was not tested");
-        return;
-    };
-    let mut done = 0;
-    for task in [sequence(json!(8)), formula("(F a) & G !b", "ltlf", 4)] {
-        let (problem, abstraction, solution) = solved(task);
-        let controller = Controller::of_inputs(&problem, &abstraction, &solution);
-        let scratch = tempfile::TempDir::new().unwrap();
-        let source = c_source(&controller, problem.name(), "controller.c").unwrap();
-        compile_c(compiler, scratch.path(), &source, HARNESS);
-
-        // Runs that jump anywhere, mostly within the partition.
-        let mut rng = ChaCha12Rng::seed_from_u64(3);
-        let mut unit = || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
-        let looks: Vec<([f64; 2], u32)> =
-            (0..20_000).map(|i| ([unit() * 6.1 - 3.05, unit() * 6.1 - 3.05], i % 10)).collect();
-        let bytes: Vec<u8> = (looks.iter())
-            .flat_map(|(x, k)| {
-                [x[0].to_ne_bytes(), x[1].to_ne_bytes()].concat().into_iter().chain(k.to_ne_bytes())
-            })
-            .collect();
-        let mut program = Command::new(scratch.path().join("main"))
-            .stdin(Stdio::from(fs::File::open(write(scratch.path(), &bytes)).unwrap()))
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut answers = vec![];
-        std::io::Read::read_to_end(&mut program.stdout.take().unwrap(), &mut answers).unwrap();
-        assert!(program.wait().unwrap().success());
-        let mut memory = RunMemory::default();
-        for ((x, k), answer) in looks.iter().zip(answers.chunks_exact(20)) {
-            if *k == 0 {
-                memory = RunMemory::default();
-            }
-            let mut u = [0.0; 2];
-            let status: u32 = match controller.control(x, u64::from(*k), &mut memory, &mut u) {
-                Decision::Act { .. } => 0,
-                Decision::Reached => 1,
-                Decision::Unsafe => 2,
-                Decision::Outside => 3,
-                Decision::NoAction => 4,
-                Decision::Over => 5,
-            };
-            done += u32::from(status == 1);
-            // Once outside, the code says that the task has failed, as the library does.
-            assert_eq!(u32::from_ne_bytes(answer[..4].try_into().unwrap()), status, "{x:?} at {k}");
-            for (u, bytes) in u.iter().zip(answer[4..].chunks_exact(8)) {
-                assert_eq!(*u, f64::from_ne_bytes(bytes.try_into().unwrap()), "{x:?} at {k}");
-            }
-        }
-    }
-    assert!(done > 1000, "{done}");
-}
-
-fn write(directory: &Path, bytes: &[u8]) -> std::path::PathBuf {
-    let path = directory.join("looks");
-    fs::File::create(&path).unwrap().write_all(bytes).unwrap();
-    path
-}
-
 #[test]
 fn files_carry_the_memory() {
     let (problem, abstraction, solution) = solved(sequence(json!(8)));
@@ -316,16 +228,17 @@ fn mistakes_are_explained() {
 
 #[test]
 fn examples_are_what_the_tool_reads() {
-    let folder = root().join("examples/tasks");
+    let folders =
+        ["examples/tasks", "examples/systems"].map(|folder| fs::read_dir(root().join(folder)).unwrap());
     let mut found = 0;
-    for file in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
+    for file in folders.into_iter().flatten().map(|entry| entry.unwrap().path()) {
         if file.extension().is_some_and(|extension| extension == "json") {
             let document = Document::parse(&file, &fs::read_to_string(&file).unwrap()).unwrap();
             document.stated().unwrap();
             found += 1;
         }
     }
-    assert_eq!(found, 6);
+    assert_eq!(found, 7);
 }
 
 /// To stay is a task for targets and samples too: the model has no goal, and the closed loop keeps the promise.

@@ -4,9 +4,8 @@ use super::base::{Base, Intervals};
 use super::enabling::Enabling;
 use super::pac::{PacRows, Preference, Worth};
 use super::states::{FAILED, REACHED, StateSpace, labels};
-use super::steering::Steering;
 use super::targets::Targets;
-use super::{AbstractionError, Footprint, known, reference};
+use super::{AbstractionError, Footprint, Plan, known, reference, sharing};
 use crate::Warning;
 use crate::guarantee::{Event, Evidence, Guarantee};
 use crate::partition::{CellId, CellKind, Grid};
@@ -35,6 +34,8 @@ pub struct Abstraction {
     pub targets: Targets,
     /// The law that steers to them.
     pub law: FeedbackLaw,
+    /// The plan that actions are near, if one is followed.
+    pub plan: Option<Plan>,
     /// What is asked about costs, in PRISM's syntax; nothing before they are rewards of the model.
     pub costs: Vec<String>,
     /// What the intervals promise, which is nothing in `reference` mode.
@@ -72,7 +73,7 @@ impl Clock {
 pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction, AbstractionError> {
     let mut clock = Clock { start: Instant::now(), phases: vec![] };
     let grid = problem.grid();
-    let steering = Steering::new(problem)?;
+    let steering = sharing::steering(problem)?;
     clock.lap("law");
 
     let footprint = Footprint::new(problem, &steering).with_rows(problem, &steering);
@@ -146,6 +147,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
         states,
         targets: enabling.targets,
         law: steering.law,
+        plan: enabling.plan,
         costs: vec![],
         guarantee: Guarantee { event: Event::of(problem), evidence },
         footprint,
@@ -180,7 +182,7 @@ impl Abstraction {
         progress: &dyn Progress,
     ) -> Result<Self, AbstractionError> {
         let mut clock = Clock { start: Instant::now(), phases: vec![] };
-        let steering = Steering::new(problem)?;
+        let steering = sharing::steering(problem)?;
         let footprint = Footprint::new(problem, &steering);
         footprint.check()?;
         let states = state_space(problem);
@@ -202,6 +204,7 @@ impl Abstraction {
             model,
             targets: enabling.targets,
             law: steering.law,
+            plan: enabling.plan,
             costs: vec![],
             guarantee,
             footprint,

@@ -1,10 +1,9 @@
 //! Targets, the law that steers to them, and where it may be used: what samples have no part in.
 
-use super::AbstractionError;
 use super::enabled::{EnabledActions, enabled_around};
 use super::targets::Targets;
 use crate::partition::{CellId, CellKind};
-use crate::problem::{Actions, Problem};
+use crate::problem::{Actions, Problem, Stabilizer};
 use crate::system::{Demands, Extent, FeedbackLaw, SteeringConstraint};
 use imdp::progress::Progress;
 
@@ -40,17 +39,15 @@ pub(super) struct Steering {
 }
 
 impl Steering {
-    pub(super) fn new(problem: &Problem) -> Result<Self, AbstractionError> {
+    pub(super) fn new(problem: &Problem, law: FeedbackLaw) -> Self {
         let Actions::Targets(points) = problem.actions();
         let targets = Targets::new(points, problem.grid());
-        let layers = problem.stabilizer().map(|stabilizer| &stabilizer.layers);
-        let law = FeedbackLaw::new(problem.system(), problem.input(), layers, &demands(problem))
-            .ok_or(AbstractionError::NotSteerable)?;
+        let layers = problem.stabilizer().and_then(Stabilizer::feedback).map(|feedback| &feedback.layers);
         let extent = Extent { state: problem.grid().magnitudes(), target: targets.magnitudes() };
         let constraints =
             law.constraints(problem.input(), layers.map(|layers| layers.abstract_input()), &extent);
         let centers = problem.grid().axes().iter().map(|axis| axis.centers()).collect();
-        Ok(Self { targets, law, extent, constraints, centers })
+        Self { targets, law, extent, constraints, centers }
     }
 
     /// The actions that the law allows in each of `cells`.

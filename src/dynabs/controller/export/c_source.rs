@@ -1,66 +1,96 @@
-//! The controller as one self-contained C99 file.
+//! The controller as one self-contained C99 file, its header, and a block of Simulink around it.
 
-use super::c_law::LawSource;
-use super::c_memory::MemorySource;
-use super::c_text::{comment, double, filled, identifier, list, promise};
+use super::tables::{ExportError, Tables};
+use super::text::{c_table, comment, identifier, lines};
 use crate::controller::Controller;
 use crate::controller::law::Law;
-use crate::partition::{CellId, CellKind};
 use crate::rendered::ended;
 use askama::Template;
-
-/// Why there is no C file.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum CSourceError {
-    /// The horizon does not fit the generated code's counter of 32 bits.
-    #[error(
-        "found a horizon of {steps} grouped steps; expected at most 4294967295, up to which the C code counts"
-    )]
-    HorizonTooLong {
-        /// The horizon.
-        steps: u64,
-    },
-    /// The template cannot be rendered: a mistake in this program.
-    #[error("the template of the C code cannot be rendered: {found}")]
-    Template {
-        /// What the template engine says.
-        found: String,
-    },
-}
 
 /// The file, field by field as the template names them.
 #[derive(Template)]
 #[template(path = "controller.c", escape = "none")]
 struct ControllerSource {
+    names: Names,
     name: String,
     version: &'static str,
     promise: String,
     file: String,
+    tables: Tables,
+    /// The state whose cell it is.
+    state: &'static str,
+}
+
+#[derive(Template)]
+#[template(path = "controller.h", escape = "none")]
+struct Header {
+    names: Names,
+    name: String,
+    version: &'static str,
+    promise: String,
+    tables: Tables,
+}
+
+#[derive(Template)]
+#[template(path = "s_function.c", escape = "none")]
+struct SFunction {
+    names: Names,
+    tables: Tables,
+    file: String,
+    block: String,
+    controller: String,
+}
+
+/// What things are called.
+struct Names {
     function: String,
     upper: String,
     prefix: String,
-    states: usize,
-    inputs: usize,
-    group: usize,
-    horizon: u32,
-    num_faces: usize,
-    faces: String,
-    first_face: String,
-    stride: String,
-    num_cells: u32,
-    kind: String,
-    memory: Option<MemorySource>,
-    num_starts: usize,
-    first_entry: String,
-    num_entries: usize,
-    steps_left: String,
-    actions: String,
-    law: LawSource,
-    /// What the tables and variables of this kind of actions are called.
+    /// The status with which there are inputs.
     act: &'static str,
-    action_of: &'static str,
+    /// The parameter for the inputs.
     array: String,
-    state: &'static str,
+}
+
+impl ControllerSource {
+    fn new(controller: &Controller, name: &str, file: &str) -> Result<Self, ExportError> {
+        let tables = Tables::new(controller)?;
+        Ok(Self {
+            names: Names::new(name, &tables),
+            name: comment(name),
+            version: env!("CARGO_PKG_VERSION"),
+            promise: promise(controller),
+            file: comment(file),
+            state: if tables.steers { "x" } else { "y" },
+            tables,
+        })
+    }
+
+    fn table(&self, name: &str) -> askama::Result<String> {
+        self.tables.get(name).map(c_table)
+    }
+}
+
+impl Names {
+    fn new(name: &str, tables: &Tables) -> Self {
+        let prefix = identifier(name);
+        let upper = prefix.to_uppercase();
+        let array = if tables.steers {
+            format!("u[{upper}_GROUP][{upper}_INPUTS]")
+        } else {
+            format!("u[{}]", tables.inputs.max(1))
+        };
+        let act = if tables.steers { "STEER" } else { "APPLY" };
+        Self { function: format!("{prefix}_control"), upper, prefix, act, array }
+    }
+}
+
+fn promise(controller: &Controller) -> String {
+    let mut sentences = controller.promise();
+    if let Law::Centered(law) = &controller.law {
+        sentences.push(comment(&law.words()));
+    }
+    lines(&sentences, " *")
 }
 
 /// The controller as C99; `name` is the model's, `file` how the file will be called.
@@ -69,62 +99,32 @@ struct ControllerSource {
 /// and sums are not contracted, with a status for every other [`Decision`](crate::controller::Decision).
 ///
 /// # Errors
-/// [`CSourceError`] if the horizon is longer than C's counter.
-pub fn c_source(controller: &Controller, name: &str, file: &str) -> Result<String, CSourceError> {
-    let steps = controller.horizon().unwrap_or(0);
-    let horizon = u32::try_from(steps).map_err(|_| CSourceError::HorizonTooLong { steps })?;
-    let prefix = identifier(name);
-    let upper = prefix.to_uppercase();
-    let faces = controller.lookup.faces();
-    let first_face = faces.iter().scan(0, |sum, faces| {
-        *sum += faces.len();
-        Some(*sum)
-    });
-    let kind = |cell| match controller.kind(CellId(cell)) {
-        CellKind::Ordinary => 0,
-        CellKind::Goal => 1,
-        CellKind::Unsafe => 2,
-    };
-    let entries = &controller.schedule.entries;
-    let steps_left: Vec<u64> = entries.iter().map(|entry| entry.steps_left).collect();
-    let (law, actions) = LawSource::new(controller);
-    let (act, action_of, state, array) = match &law {
-        LawSource::Steering(_) => ("STEER", "target_of", "x", format!("u[{upper}_GROUP][{upper}_INPUTS]")),
-        LawSource::Centered(law) => ("APPLY", "input_of", "y", format!("u[{}]", law.array_inputs)),
-    };
-    let mut sentences = controller.promise();
-    if let Law::Centered(law) = &controller.law {
-        sentences.push(comment(&law.words()));
-    }
-    let source = ControllerSource {
-        name: comment(name),
-        version: env!("CARGO_PKG_VERSION"),
-        promise: promise(&sentences),
-        file: comment(file),
-        function: format!("{prefix}_control"),
-        states: controller.state_dimension(),
-        inputs: controller.step_inputs(),
-        group: controller.group_steps(),
-        horizon,
-        num_faces: faces.iter().map(Vec::len).sum(),
-        faces: list(faces.iter().flatten().map(double)),
-        first_face: list(std::iter::once(0).chain(first_face)),
-        stride: list(controller.lookup.strides().iter()),
-        num_cells: controller.num_cells(),
-        kind: list((0..controller.num_cells()).map(kind)),
-        memory: MemorySource::new(controller),
-        num_starts: controller.schedule.starts.len() - 1,
-        first_entry: list(controller.schedule.starts.iter()),
-        num_entries: entries.len().max(1),
-        steps_left: list(filled(steps_left, 0).into_iter()),
-        actions: list(filled(actions, 0).into_iter()),
-        law,
-        act,
-        action_of,
-        array,
-        state,
-        upper,
-        prefix,
-    };
-    source.render().map(ended).map_err(|error| CSourceError::Template { found: error.to_string() })
+/// [`ExportError`] if the horizon is longer than the code's counter.
+pub fn c_source(controller: &Controller, name: &str, file: &str) -> Result<String, ExportError> {
+    Ok(ended(ControllerSource::new(controller, name, file)?.render()?))
+}
+
+/// What [`c_source`] defines for other files: sizes, statuses and the function.
+///
+/// # Errors
+/// [`ExportError`] if the horizon is longer than the code's counter.
+pub fn c_header(controller: &Controller, name: &str) -> Result<String, ExportError> {
+    let source = ControllerSource::new(controller, name, "")?;
+    let ControllerSource { names, name, version, promise, tables, .. } = source;
+    Ok(ended(Header { names, name, version, promise, tables }.render()?))
+}
+
+/// The controller as a level-2 S-function of Simulink in C; `block` is what the file is called without its ending.
+///
+/// One parameter: the time of one step. Input: the state. Outputs: the input of this step, and the status. It looks at the
+/// state once in `d` steps and hands out the inputs of each of them.
+///
+/// # Errors
+/// [`ExportError`] if the horizon is longer than the code's counter.
+pub fn s_function_source(controller: &Controller, name: &str, block: &str) -> Result<String, ExportError> {
+    let file = format!("{block}.c");
+    let source = ControllerSource::new(controller, name, &file)?;
+    let controller = ended(source.render()?);
+    let ControllerSource { names, tables, file, .. } = source;
+    Ok(ended(SFunction { names, tables, file, block: block.to_owned(), controller }.render()?))
 }

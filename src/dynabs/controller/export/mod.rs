@@ -1,15 +1,31 @@
-//! The controller as files: JSON and CSV to read, C to deploy.
+//! The controller as files: JSON and CSV to read, C, Python and MATLAB to deploy, tables for anything else.
+//!
+//! Whatever is deployed computes with the same tables, in the same order of operations, as [`Controller::control`] does.
+//!
+//! [`Controller::control`]: crate::controller::Controller::control
 
-mod c_law;
-mod c_memory;
+mod archive;
 mod c_source;
-mod c_text;
 mod csv;
 mod input_json;
 mod json;
+mod law_tables;
+mod mat;
+mod matlab_source;
 mod memory_json;
+mod memory_tables;
+mod npz;
+mod python_source;
+mod table;
+mod tables;
+mod text;
 
-pub use c_source::{CSourceError, c_source};
+pub use c_source::{c_header, c_source, s_function_source};
 pub use csv::write_csv;
 pub use input_json::write_input_json;
 pub use json::write_json;
+pub use mat::mat;
+pub use matlab_source::matlab_source;
+pub use npz::npz;
+pub use python_source::{python_source, ros2_source};
+pub use tables::ExportError;

@@ -1,0 +1,1 @@
+/* Nothing: code generation has its own. */
