@@ -132,10 +132,27 @@ pub(super) enum IndependentSpec {
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SamplesSpec {
-    /// A CSV file without header, one sample of n numbers per line; relative to the model file.
+    /// A CSV file, one sample of n numbers per line, separated by commas or semicolons; the first line may have names instead.
+    /// Relative to the model file.
     pub(super) file: String,
     /// "grouped" if a sample is the noise of d steps together, "step" if it is that of one step.
     pub(super) of: SampleKindSpec,
+    /// What separates whole numbers from decimals: "." (the default) or ",", with semicolons between numbers.
+    #[serde(default)]
+    pub(super) decimal: DecimalSpec,
+}
+
+/// What separates whole numbers from decimals.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize, JsonSchema)]
+#[schemars(rename = "DecimalMark")]
+pub(super) enum DecimalSpec {
+    /// A point.
+    #[default]
+    #[serde(rename = ".")]
+    Point,
+    /// A comma.
+    #[serde(rename = ",")]
+    Comma,
 }
 
 /// What a sample in a file is the noise of.

@@ -2,8 +2,8 @@
 
 use super::dynamics::DynamicsSpec;
 use super::fields::{
-    CostSpec, GaussianSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec, SampleKindSpec, SamplesSpec,
-    TargetsSpec,
+    CostSpec, DecimalSpec, GaussianSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec, SampleKindSpec,
+    SamplesSpec, TargetsSpec,
 };
 use super::given::given;
 use super::named::Named;
@@ -11,6 +11,7 @@ use super::set_fields::{GridSpec, SetSpec};
 use super::stabilizer_parts::lower_layer;
 use super::task_parts::task;
 use crate::Diagnostic;
+use crate::noise::DecimalMark;
 use crate::problem::{
     CostParts, DrawnNoise, GaussianNoise, InputSet, LinearDynamics, NoiseSource, Partition, Probabilities,
     Problem, ProblemBuilder, SampleKind, SamplesFile, TargetChoice,
@@ -107,7 +108,7 @@ fn targets(spec: TargetsSpec) -> TargetChoice {
 pub(super) fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {
     match spec {
         NoiseSpec {
-            samples: Some(SamplesSpec { file, of }),
+            samples: Some(SamplesSpec { file, of, decimal }),
             gaussian: None,
             components: None,
             count: None,
@@ -118,7 +119,11 @@ pub(super) fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Di
                 SampleKindSpec::Grouped => SampleKind::Grouped,
                 SampleKindSpec::Step => SampleKind::Step,
             };
-            Ok(SamplesFile { path: directory.join(&file), name: file, of }.into())
+            let decimal = match decimal {
+                DecimalSpec::Point => DecimalMark::Point,
+                DecimalSpec::Comma => DecimalMark::Comma,
+            };
+            Ok(SamplesFile { path: directory.join(&file), name: file, of, decimal }.into())
         }
         NoiseSpec {
             samples: None,
