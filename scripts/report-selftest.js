@@ -10,7 +10,7 @@ const input = (element, value) => {
   element.dispatchEvent(new Event("input", {bubbles: true}));
 };
 const drawing = (selector) => get(selector).innerHTML;
-const layers = ["#map .heat", "#map .regions", "#map .arrows", "#map .runs", "#map .axes",
+const layers = ["#map .heat", "#map .regions", "#map .arrows", "#map .runs", "#map .axes", "#map .scale",
   "#section .regions", "#section .curve", "#section .axes"];
 const facts = () => [...document.querySelectorAll("#facts dd")].map((fact) => fact.textContent);
 
@@ -24,22 +24,29 @@ const same = (a, b) => {
 try {
   const map = get("#map"), n = document.querySelectorAll("#up option").length || 1;
   const before = layers.map(drawing), told = facts();
+  const legend = () => [...document.querySelectorAll(".entry")].filter((entry) => !entry.hidden).map((entry) => entry.textContent.trim());
+  const explained = legend(), box = map.getAttribute("viewBox");
   check(!get("#controls").hidden, "no controls");
   const arrows = get("[data-show=arrows]");
   input(arrows, true);
   layers.forEach((layer, i) => check(same(before[i], drawing(layer)), `${layer} is redrawn differently`));
   check(told.join() === facts().join(), `facts are told differently: ${told.join("; ")} | ${facts().join("; ")}`);
+  check(explained.join() === legend().join(), `the legend changes: ${explained.join("; ")} | ${legend().join("; ")}`);
+  check(map.getAttribute("viewBox") === box, "the map changes its size");
   input(arrows, false);
   check(drawing("#map .arrows") === "", "arrows stay");
+  check(!legend().some((text) => text.includes("best action")), "the legend has arrows that are not drawn");
   input(arrows, true);
 
   // A click on the middle of the map.
   const place = map.getBoundingClientRect(), at = (x, y) => ({
     bubbles: true,
     clientX: place.left + x / 720 * place.width,
-    clientY: place.top + y / 484 * place.height,
+    clientY: place.top + y / 720 * place.width,
   });
-  const clicks = [[344, 226], [200, 340], [300, 120], [420, 300], [344, 380]];
+  const border = get("#map .axes .border"), side = (name) => Number(border.getAttribute(name));
+  const clicks = [[0.5, 0.5], [0.25, 0.77], [0.42, 0.25], [0.65, 0.68], [0.52, 0.87]]
+    .map(([x, y]) => [side("x") + x * side("width"), side("y") + y * side("height")]);
   const seen = new Set();
   let steered = 0;
   for (const [x, y] of clicks) {
@@ -59,6 +66,13 @@ try {
   check(steered > 0, "no click found a cell with an action");
   map.dispatchEvent(new MouseEvent("click", at(10, 10)));
   check(seen.has(get("#fact-cell").textContent + get("#fact-value").textContent), "a click outside picks a cell");
+
+  // What is under the pointer is told, and only there.
+  const hover = get("#hover");
+  map.dispatchEvent(new PointerEvent("pointermove", at(...clicks[0])));
+  check(/: [01]\.\d{6}, \w+$/.test(hover.textContent), `under the pointer: "${hover.textContent}"`);
+  map.dispatchEvent(new PointerEvent("pointermove", at(10, 10)));
+  check(hover.textContent === "", "something is told outside of the map");
 
   // The keyboard.
   const press = (key) => map.dispatchEvent(new KeyboardEvent("keydown", {key, bubbles: true, cancelable: true}));
@@ -92,11 +106,12 @@ try {
     check(drawing("#map .heat") === first, "the slice does not go back");
   }
   if (n > 1) {
-    const first = drawing("#map .heat");
-    input(get("#up"), 0);
-    check(get("#across").value === "1" && get("#up").value === "0", "the axes do not swap");
+    const first = drawing("#map .heat"), [across, up] = [get("#across").value, get("#up").value];
+    input(get("#up"), across);
+    check(get("#across").value === up && get("#up").value === across, "the axes do not swap");
     check(drawing("#map .heat") !== first, "other axes, same map");
-    const [one, two] = [...document.querySelectorAll("#up option")].map((option) => option.textContent);
+    const names = [...document.querySelectorAll("#up option")].map((option) => option.textContent);
+    const [one, two] = [names[across], names[up]];
     const named = (axes, ...names) => names.every((name) => get(axes).textContent.includes(name));
     check(named("#map .axes", one, two), "axes are not named");
     for (const option of get("#across").options) {
@@ -104,13 +119,26 @@ try {
       check(!/NaN|Infinity|undefined/.test(map.outerHTML), `the map across ${option.text} has no numbers`);
       check(get("#across").value !== get("#up").value, "a plane with one axis only");
     }
-    input(get("#across"), 0);
-    input(get("#up"), 1);
+    input(get("#across"), across);
+    input(get("#up"), up);
     check(drawing("#map .heat") === first, "the axes do not go back");
     const curve = drawing("#section .curve");
-    input(get("#along"), 1);
+    input(get("#along"), up);
     check(drawing("#section .curve") !== curve && named("#section .axes", two), "one cross-section only");
   }
+  // Links lead back to what was shown.
+  const link = location.hash, shown = drawing("#map .heat") + facts().join();
+  check(/^#across=[^&]+&up=[^&]+&step=\d+&cell=[\d,]+/.test(link), `no link to what is shown: ${link}`);
+  input(arrows, true);
+  press("ArrowUp");
+  press("ArrowLeft");
+  check(location.hash !== link, "the link stays");
+  history.replaceState(null, "", link);
+  dispatchEvent(new HashChangeEvent("hashchange"));
+  check(drawing("#map .heat") + facts().join() === shown, "the link leads elsewhere");
+  history.replaceState(null, "", "#across=nowhere&up=<b>&step=-1&cell=1e9,x");
+  dispatchEvent(new HashChangeEvent("hashchange"));
+  check(drawing("#map .heat") + facts().join() === shown, "a link that makes no sense leads somewhere");
   const between = get("[data-show=between]");
   if (between) {
     const first = drawing("#map .runs");

@@ -52,6 +52,35 @@ const MISTAKES: &[Mistake] = &[
     mistake(TWO_LAYER, "/stabilizer/lqr/Q=[[1,0],[0,0]]", &["/stabilizer/lqr/Q", "positive definite"]),
     mistake(TWO_LAYER, "/stabilizer/lqr/Q=[[1,0],[0.5,1]]", &["/stabilizer/lqr/Q", "symmetric", "0.5"]),
     mistake(TWO_LAYER, "/stabilizer/gain=[[1,0],[0,1]]", &["/stabilizer", "both lqr and gain"]),
+    mistake(TWO_LAYER, "/stabilizer/track=\"auto\"", &["/stabilizer", "lqr, track", "exactly one of"]),
+    mistake(TWO_LAYER, "/stabilizer={\"lqr\":{\"Q\":[[1]],\"R\":[[1]]}}", &["/stabilizer", "abstract_input"]),
+    // The same with a plan.
+    mistake(TWO_LAYER, "/stabilizer={\"track\":\"fast\"}", &["/stabilizer/track", "\"auto\" or a list"]),
+    mistake(
+        TWO_LAYER,
+        "/stabilizer={\"track\":\"auto\",\"about\":[0,0]}",
+        &["/stabilizer/about", "beside track", "where the plan goes"],
+    ),
+    mistake(
+        TWO_LAYER,
+        "/stabilizer={\"track\":\"auto\",\"abstract_input\":{\"lower\":[1,1],\"upper\":[2,2]}}",
+        &["/stabilizer/abstract_input", "without 0", "u′ = 0"],
+    ),
+    mistake(
+        TWO_LAYER,
+        "/stabilizer={\"track\":[{\"from\":[-20,0],\"to\":[50,0]}]}",
+        &["/stabilizer/track/0/to", "[50", "[-41, 41)"],
+    ),
+    mistake(
+        TWO_LAYER,
+        "/stabilizer={\"track\":[{\"from\":[-20,0],\"to\":[0]}]}",
+        &["/stabilizer/track/0/to", "1 number", "expected 2"],
+    ),
+    mistake(
+        TWO_LAYER,
+        "/stabilizer={\"track\":[{\"from\":[-20,0],\"to\":[0,0]},{\"from\":[-20.5,0.5],\"to\":[0,0]}]}",
+        &["/stabilizer/track/1/from", "one heading for every cell"],
+    ),
     // Noise.
     mistake(
         ROOM,

@@ -170,7 +170,15 @@ fn small_model() -> IntervalMdp {
 
 fn guarantee() -> Guarantee {
     let (budget, components) = (vec![], None);
-    let samples = SampleEvidence { number: 100, beta: 0.01, sweep: 1, budget, unseen_mass: 0.1, components };
+    let samples = SampleEvidence {
+        number: 100,
+        beta: 0.01,
+        sweep: 1,
+        budget,
+        unseen_mass: 0.1,
+        components,
+        follows_plan: false,
+    };
     Guarantee { evidence: Evidence::Samples(samples), ..Guarantee::none() }
 }
 

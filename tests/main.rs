@@ -52,6 +52,7 @@ mod sweep;
 mod systems;
 mod target_tasks;
 mod tasks;
+mod tracking;
 mod type_names;
 mod validate;
 mod values;

@@ -2,7 +2,7 @@
 use crate::common::{abstraction, data, problem, reference_mode, table_one_row};
 use dynabs::abstraction::{Targets, demands, enabled_actions};
 use dynabs::partition::{CellId, CellKind};
-use dynabs::problem::{Actions, Problem};
+use dynabs::problem::{Actions, Problem, Stabilizer};
 use dynabs::statistics::ReferenceIntervals;
 use dynabs::system::{Extent, FeedbackLaw};
 
@@ -25,7 +25,7 @@ fn table_one_has_the_published_sizes() {
 fn the_gain_is_the_published_one() {
     let table = data("table1.json");
     let problem = problem("double_integrator_two_layer", &[]).unwrap();
-    let stabilizer = problem.stabilizer().unwrap();
+    let stabilizer = problem.stabilizer().unwrap().feedback().unwrap();
     let gain = stabilizer.layers.gain().to_f64();
     for (i, row) in table["lqr"]["gain_rounded_to_5_decimals"].as_array().unwrap().iter().enumerate() {
         for (j, expected) in row.as_array().unwrap().iter().enumerate() {
@@ -86,7 +86,7 @@ fn printed_intervals_are_the_published_ones() {
 fn transitions_with_margin(problem: &Problem, margin: f64) -> u64 {
     let Actions::Targets(points) = problem.actions();
     let targets = Targets::new(points, problem.grid());
-    let layers = problem.stabilizer().map(|s| &s.layers);
+    let layers = problem.stabilizer().and_then(Stabilizer::feedback).map(|s| &s.layers);
     let law = FeedbackLaw::new(problem.system(), problem.input(), layers, &demands(problem)).unwrap();
     let extent = Extent { state: problem.grid().magnitudes(), target: targets.magnitudes() };
     let mut constraints = law.constraints(problem.input(), layers.map(|l| l.abstract_input()), &extent);

@@ -3,7 +3,7 @@ use dynabs::abstraction::{Targets, demands, enabled_actions};
 use dynabs::geometry::Polytope;
 use dynabs::model_file::Document;
 use dynabs::partition::{CellId, Grid};
-use dynabs::problem::{Actions, Problem, TargetId};
+use dynabs::problem::{Actions, Problem, Stabilizer, TargetId};
 use dynabs::system::{Extent, FeedbackLaw};
 use imdp::numeric::to_f64;
 use nalgebra::{DMatrix, DVector};
@@ -48,7 +48,7 @@ fn check(problem: &Problem, seed: u64) -> usize {
     let grid = problem.grid();
     let Actions::Targets(points) = problem.actions();
     let targets = Targets::new(points, grid);
-    let layers = problem.stabilizer().map(|s| &s.layers);
+    let layers = problem.stabilizer().and_then(Stabilizer::feedback).map(|s| &s.layers);
     let law = FeedbackLaw::new(problem.system(), problem.input(), layers, &demands(problem)).unwrap();
     let extent = Extent { state: grid.magnitudes(), target: targets.magnitudes() };
     let constraints = law.constraints(problem.input(), layers.map(|l| l.abstract_input()), &extent);

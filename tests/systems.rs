@@ -98,6 +98,27 @@ fn modes_are_inputs_that_select() {
     assert_eq!(images.depends_on(images.row(1, 0)), [0]);
 }
 
+/// Modes that switch by chance: a coordinate that noise of two atoms throws, and a `clip` that is 0 or 1 there. Every image
+/// is that of one mode.
+#[test]
+fn modes_that_switch_by_chance_are_a_coordinate() {
+    let switch = "/dynamics={\"states\":[\"x\",\"m\"],\"inputs\":[\"u\"],\"definitions\":{\"second\":\"clip(m - 1, 0, 1)\"},\
+                  \"next\":[\"(1 - second)*0.5*x + second*2*x + u\",\"0\"]}";
+    let noise = "/noise={\"components\":[{\"uniform\":{\"lower\":-0.1,\"upper\":0.1}},\
+                 {\"atoms\":{\"values\":[0.5,2.5],\"weights\":[0.7,0.3]}}]}";
+    let partition = "/partition={\"lower\":[-2,0],\"upper\":[2,3],\"cells\":[16,3]}";
+    let problem = stated(&[switch, noise, partition, "/input={\"list\":[[0]]}"]).unwrap();
+    let lattice = Lattice::new(problem.grid(), &[1, 1], &[true, true]);
+    let images = ImageMap::new(problem.mode(), problem.feedback(), problem.grid(), lattice, problem.inputs());
+    let mut scratch = ImageScratch::default();
+    let mut image = |m| {
+        let range = images.range(images.row(0, 0), &[10, m], &mut scratch).unwrap();
+        (range.first, range.last)
+    };
+    // The cell [0.5, 0.75) of x: x⁺ in [0.25, 0.375], or [1, 1.5].
+    assert_eq!([image(0), image(2)], [(9, 9), (12, 14)]);
+}
+
 #[test]
 fn feedback_leaves_its_share_of_the_inputs() {
     let problem = stated(&["/feedback={\"gain\":[[0,2]]}"]).unwrap();

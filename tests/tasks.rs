@@ -228,16 +228,17 @@ fn mistakes_are_explained() {
 
 #[test]
 fn examples_are_what_the_tool_reads() {
-    let folder = root().join("examples/tasks");
+    let folders =
+        ["examples/tasks", "examples/systems"].map(|folder| fs::read_dir(root().join(folder)).unwrap());
     let mut found = 0;
-    for file in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
+    for file in folders.into_iter().flatten().map(|entry| entry.unwrap().path()) {
         if file.extension().is_some_and(|extension| extension == "json") {
             let document = Document::parse(&file, &fs::read_to_string(&file).unwrap()).unwrap();
             document.stated().unwrap();
             found += 1;
         }
     }
-    assert_eq!(found, 6);
+    assert_eq!(found, 7);
 }
 
 /// To stay is a task for targets and samples too: the model has no goal, and the closed loop keeps the promise.

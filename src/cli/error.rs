@@ -90,6 +90,12 @@ impl CliError {
                 "at least one cell from all of which one target can be reached with u in U",
             )
             .remedy(steering_remedy(grouping)),
+            AbstractionError::NothingPlanned => Diagnostic::at(
+                "/stabilizer/track",
+                "a problem in which no cell can come nearer to what is wanted, and headings that no enabled action is near",
+                "a plan that something can follow",
+            )
+            .remedy("Leave \"stabilizer\" out and see what `dynabs-check explain` says."),
             AbstractionError::NothingClear { group_steps } => Diagnostic::at(
                 "/task/unsafe",
                 format!(

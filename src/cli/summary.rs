@@ -70,6 +70,10 @@ pub(super) fn summary(manifest: &Manifest, directory: Option<&str>) -> String {
             line("Riccati", format!("relative residual {residual:.1e}"));
         }
     }
+    if let Some(plan) = &manifest.plan {
+        let (cells, targets) = (thousands(plan.cells), thousands(plan.targets));
+        line("plan", format!("from {cells} cells to {targets} targets; enabled is what U' allows around it"));
+    }
     match (manifest.guarantee.samples(), manifest.guarantee.confidence()) {
         (Some(samples), Some(confidence)) => {
             let number = thousands(samples.number);

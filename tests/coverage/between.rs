@@ -13,8 +13,8 @@
 use dynabs::abstraction::{Abstraction, compile};
 use dynabs::partition::{CellId, CellKind};
 use dynabs::problem::{
-    Gain, GivenSamples, InputSet, LinearDynamics, LowerLayer, Partition, Probabilities, Problem, RegionBox,
-    SampleKind, Task,
+    FeedbackLayer, Gain, GivenSamples, InputSet, LinearDynamics, LowerLayer, Partition, Probabilities,
+    Problem, RegionBox, SampleKind, Task,
 };
 use dynabs::task::Safety;
 use imdp::model::{Row, RowBuffer, RowId, StateId};
@@ -130,11 +130,11 @@ fn problem(layers: Layers, samples: Vec<f64>, safety: Safety, beta: f64) -> Prob
     let builder = match layers {
         Layers::One => builder,
         // With about half of the actions of one layer.
-        Layers::Two => builder.lower_layer(LowerLayer {
+        Layers::Two => builder.lower_layer(LowerLayer::Feedback(FeedbackLayer {
             gain: Gain::Given(vec![vec![0.2, 0.1], vec![0.0, 0.05]]),
             about: None,
             abstract_input: InputSet::Box { lower: vec![-2.0; 2], upper: vec![2.0; 2] },
-        }),
+        })),
     };
     builder
         .partition(Partition { lower: LOWER.into(), upper: vec![3.0, 1.0], cells: CELLS.into() })

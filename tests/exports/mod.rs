@@ -61,6 +61,7 @@ fn controllers() -> Vec<Exported> {
         shipped("double_integrator", &[]),
         shipped("double_integrator_two_layer", &[]),
         shipped("spacecraft_aligned_two_layer", &[]),
+        shipped("tracking/double_integrator", &[]),
         given(&room(&sequence(8), true)),
         given(&room(&sequence(8), false)),
         given(&room(&formula("(F a) & G !b", "ltlf", 4), true)),

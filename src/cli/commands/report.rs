@@ -6,8 +6,8 @@ use crate::{Bars, CliError, print, warn};
 use clap::Args;
 use dynabs::controller::Controller;
 use dynabs::report::{
-    CrossCheckError, InputMaterial, Material, MaterialOptions, Picture, ReportError, input_page,
-    input_pictures, page, pictures, read_cross_checks,
+    CrossCheckError, InputMaterial, Material, MaterialOptions, Picture, ReportError, ViewChoice, ViewError,
+    input_page, input_pictures, page, pictures, read_cross_checks,
 };
 use dynabs::run::Manifest;
 use imdp::files::Outputs;
@@ -46,6 +46,19 @@ pub struct ReportArguments {
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
 
+    /// What is across in the first view, and in the files of --svg: a coordinate by name or number, or time. Without it, and
+    /// for the other axis, what the regions of the task depend on.
+    #[arg(long, value_name = "COORDINATE")]
+    across: Option<String>,
+
+    /// What is up.
+    #[arg(long, value_name = "COORDINATE")]
+    up: Option<String>,
+
+    /// Where the plane lies in other coordinates, such as x3=0.5,x4=-1; otherwise it goes through the start.
+    #[arg(long, value_name = "NAME=VALUE", value_delimiter = ',', allow_hyphen_values = true)]
+    at: Vec<String>,
+
     /// Leave out how long things took: the same bytes every time.
     #[arg(long)]
     no_times: bool,
@@ -64,6 +77,30 @@ impl From<CrossCheckError> for CliError {
     }
 }
 
+impl From<ViewError> for CliError {
+    fn from(error: ViewError) -> Self {
+        // The parts of a choice are options here.
+        Self::Input(format!("--{error}"))
+    }
+}
+
+/// The plane that was chosen.
+fn view(arguments: &ReportArguments) -> Result<ViewChoice, CliError> {
+    let at = |text: &String| {
+        let parts = text.split_once('=').and_then(|(name, value)| Some((name, value.trim().parse().ok()?)));
+        parts.map(|(name, value)| (name.trim().to_owned(), value)).ok_or_else(|| {
+            CliError::Input(format!(
+                "--at: found {text:?}; expected a coordinate and a number, such as x3=0.5"
+            ))
+        })
+    };
+    Ok(ViewChoice {
+        across: arguments.across.clone(),
+        up: arguments.up.clone(),
+        at: arguments.at.iter().map(at).collect::<Result<_, _>>()?,
+    })
+}
+
 /// Runs the subcommand.
 ///
 /// # Errors
@@ -71,14 +108,17 @@ impl From<CrossCheckError> for CliError {
 pub fn run(arguments: &ReportArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
     let start = Instant::now();
+    let view = view(arguments)?;
     let run = Controlled::open(&arguments.directory, &bars)?;
     run.require_text("the page", "Use fewer /partition/cells.")?;
     let (page, pictures) = match run {
-        Controlled::Inputs(solved, controller) => of_inputs(arguments, &solved, &controller, start, &bars)?,
+        Controlled::Inputs(solved, controller) => {
+            of_inputs((arguments, &view), &solved, &controller, start, &bars)?
+        }
         Controlled::Targets(refined) => {
             let Refined { run, answer, controller } = &*refined;
             let options = options(arguments, &run.manifest, start)?;
-            let material = Material::new(run, answer, controller, options, &*bars);
+            let material = Material::new(run, answer, controller, options, &*bars).seen(&view)?;
             (page(&material), pictures(&material))
         }
     };
@@ -110,7 +150,7 @@ type Reported = (Result<String, ReportError>, Vec<Picture>);
 
 /// A run whose actions are inputs.
 fn of_inputs(
-    arguments: &ReportArguments,
+    (arguments, view): (&ReportArguments, &ViewChoice),
     SolvedInputs { run, solution }: &SolvedInputs,
     controller: &Controller,
     start: Instant,
@@ -119,7 +159,7 @@ fn of_inputs(
     let solver = SolverOptions { progress: bars, ..SolverOptions::default() };
     let solution = run.by_step(solution, &solver);
     let options = options(arguments, &run.manifest, start)?;
-    let material = InputMaterial::new(run, &solution, controller, options, bars);
+    let material = InputMaterial::new(run, &solution, controller, options, bars).seen(view)?;
     Ok((input_page(&material), input_pictures(&material)))
 }
 

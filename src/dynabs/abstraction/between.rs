@@ -82,14 +82,8 @@ impl<'a> Between<'a> {
     ) -> EnabledActions {
         let pairs: u64 = enabled.ranges.iter().map(|range| range.rows().count() as u64).sum();
         let has_rooms = pairs <= MOST_PAIRS;
-        let starts: Vec<usize> = (enabled.ranges_per_cell.iter())
-            .scan(0, |end, &count| {
-                let start = *end;
-                *end += count as usize;
-                Some(start)
-            })
-            .collect();
-        let of_cell = |i: usize| &enabled.ranges[starts[i]..starts[i] + enabled.ranges_per_cell[i] as usize];
+        let starts = enabled.starts();
+        let of_cell = |i: usize| &enabled.ranges[starts[i]..starts[i + 1]];
         let of_task = |least: Option<usize>, task: usize, chunk: &[CellId]| {
             let mut found = Clear::default();
             let mut probe = Probe::new(self, least);

@@ -6,7 +6,7 @@ use super::pac::{PacRows, Preference, Worth};
 use super::states::{FAILED, REACHED, StateSpace, labels};
 use super::steering::Steering;
 use super::targets::Targets;
-use super::{AbstractionError, Footprint, known, reference};
+use super::{AbstractionError, Footprint, Plan, known, reference};
 use crate::Warning;
 use crate::guarantee::{Event, Evidence, Guarantee};
 use crate::partition::{CellId, CellKind, Grid};
@@ -35,6 +35,8 @@ pub struct Abstraction {
     pub targets: Targets,
     /// The law that steers to them.
     pub law: FeedbackLaw,
+    /// The plan that actions are near, if one is followed.
+    pub plan: Option<Plan>,
     /// What is asked about costs, in PRISM's syntax; nothing before they are rewards of the model.
     pub costs: Vec<String>,
     /// What the intervals promise, which is nothing in `reference` mode.
@@ -146,6 +148,7 @@ pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction
         states,
         targets: enabling.targets,
         law: steering.law,
+        plan: enabling.plan,
         costs: vec![],
         guarantee: Guarantee { event: Event::of(problem), evidence },
         footprint,
@@ -202,6 +205,7 @@ impl Abstraction {
             model,
             targets: enabling.targets,
             law: steering.law,
+            plan: enabling.plan,
             costs: vec![],
             guarantee,
             footprint,

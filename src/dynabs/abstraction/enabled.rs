@@ -97,6 +97,15 @@ impl EnabledActions {
         self.ranges.extend(part.ranges);
     }
 
+    /// Per cell, how many ranges come before its own; one more entry than cells.
+    pub(super) fn starts(&self) -> Vec<usize> {
+        let ends = self.ranges_per_cell.iter().scan(0, |end, &count| {
+            *end += count as usize;
+            Some(*end)
+        });
+        std::iter::once(0).chain(ends).collect()
+    }
+
     /// Those of all cells, from those of the cells of this process.
     pub(super) fn joined(self, share: &Share) -> Self {
         if share.is_all() {

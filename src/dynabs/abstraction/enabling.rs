@@ -1,15 +1,17 @@
-//! Which actions are enabled in which ordinary cells: by the law, and by what is to be avoided in between.
+//! Which actions are enabled in which ordinary cells: by the law, by what is to be avoided in between, and by a plan.
 
 use super::AbstractionError;
 use super::between::Between;
 use super::enabled::EnabledActions;
 use super::hazards::Hazards;
+use super::plan::Plan;
 use super::rooms::{Needed, Rooms};
 use super::steering::Steering;
 use super::targets::Targets;
+use super::tracking::Deviations;
 use super::windows::Windows;
 use crate::partition::{CellId, CellKind};
-use crate::problem::Problem;
+use crate::problem::{Problem, Stabilizer};
 use imdp::model::RowRange;
 use imdp::progress::Progress;
 
@@ -23,8 +25,11 @@ pub(super) struct Enabling {
     pub(super) targets: Targets,
     /// The rooms that some of them need.
     pub(super) rooms: Rooms,
-    /// Per cell of the partition, whether it is ordinary and the law has no action there: known before any sample.
+    /// Per cell of the partition, whether it is ordinary and the law has no action there: known before any sample, and
+    /// before any plan.
     idle: Vec<bool>,
+    /// The plan that they are near, if one is to be followed.
+    pub(super) plan: Option<Plan>,
 }
 
 impl Enabling {
@@ -45,7 +50,8 @@ impl Enabling {
         progress.finish();
         let is_empty = |actions: &EnabledActions| actions.ranges.is_empty() && !ordinary.is_empty();
         if is_empty(&actions) {
-            let (stabilized, grouping) = (problem.stabilizer().is_some(), problem.grouping().to_vec());
+            let (stabilized, grouping) =
+                (problem.stabilizer().and_then(Stabilizer::feedback).is_some(), problem.grouping().to_vec());
             return Err(AbstractionError::NothingEnabled { stabilized, grouping });
         }
         let mut idle = vec![false; problem.grid().num_cells() as usize];
@@ -64,12 +70,22 @@ impl Enabling {
                 return Err(AbstractionError::NothingClear { group_steps: problem.group_steps() });
             }
         }
+        let tracking = problem.stabilizer().and_then(Stabilizer::tracking);
+        let plan = tracking.map(|tracking| {
+            let plan = Plan::new(problem, tracking, &targets, (&ordinary, &actions), progress);
+            let deviations = Deviations::new(&steering.law, tracking.abstract_input(), &targets);
+            actions = deviations.near(&plan, &targets, &ordinary, &actions);
+            plan
+        });
+        if is_empty(&actions) {
+            return Err(AbstractionError::NothingPlanned);
+        }
         let mut starts = vec![0; idle.len() + 1];
         for (cell, &count) in ordinary.iter().zip(&actions.ranges_per_cell) {
             starts[cell.index() + 1] = count as usize;
         }
         (0..idle.len()).for_each(|cell| starts[cell + 1] += starts[cell]);
-        Ok(Self { actions, starts, targets, rooms, idle })
+        Ok(Self { actions, starts, targets, rooms, idle, plan })
     }
 
     /// The enabled actions of a cell, ascending; none if it is not ordinary.

@@ -16,6 +16,9 @@ pub enum AbstractionError {
         /// What numbers of grouped steps could do.
         grouping: Vec<GroupingTrial>,
     },
+    /// No cell has a plan.
+    #[error("a plan leads from no cell to anything")]
+    NothingPlanned,
     /// Every action may meet something unsafe at a step in between.
     #[error("in every cell every action may meet something unsafe between grouped instants")]
     NothingClear {

@@ -5,7 +5,7 @@ use super::steering::Steering;
 use super::targets::Targets;
 use crate::memory::{Need, TooLarge};
 use crate::partition::{CellId, CellKind, Grid};
-use crate::problem::{Actions, Problem, TargetPoints};
+use crate::problem::{Actions, Problem, Stabilizer, TargetPoints};
 use imdp::numeric::to_f64;
 use serde::Serialize;
 
@@ -29,6 +29,12 @@ const ENTRY_BYTES: u64 = 60;
 
 /// Per row that is a shift of a stencil: which, its length, what its special states get; in two models.
 const SHIFTED_ROW_BYTES: u64 = 24;
+
+/// Per cell that is planned for: its values, what it steers to.
+const PLAN_CELL_BYTES: u64 = 40;
+
+/// Per target that is planned with: its cell, and how good it and its neighbours are.
+const PLAN_TARGET_BYTES: u64 = 160;
 
 /// Per memory and cell: its state, what landing there means, values.
 const PAIR_BYTES: u64 = 64;
@@ -57,6 +63,11 @@ impl Footprint {
             need("the targets", targets * TARGET_BYTES, field),
             need("the enabled actions", ranges.saturating_mul(range_bytes), field),
         ];
+        if let Some(tracking) = problem.stabilizer().and_then(Stabilizer::tracking) {
+            let per_target = PLAN_TARGET_BYTES + 8 * tracking.abstract_input().offsets().len() as u64;
+            let bytes = u64::from(grid.num_cells()) * PLAN_CELL_BYTES + targets * per_target;
+            needs.push(need("the plan", bytes, field));
+        }
         if memories > 1 {
             let bytes = memories.saturating_mul(u64::from(grid.num_cells())).saturating_mul(PAIR_BYTES);
             needs.push(need("what the task remembers in all cells", bytes, "/task"));

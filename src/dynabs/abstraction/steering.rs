@@ -2,9 +2,10 @@
 
 use super::AbstractionError;
 use super::enabled::{EnabledActions, enabled_around};
+use super::sharing;
 use super::targets::Targets;
 use crate::partition::{CellId, CellKind};
-use crate::problem::{Actions, Problem};
+use crate::problem::{Actions, Problem, Stabilizer};
 use crate::system::{Demands, Extent, FeedbackLaw, SteeringConstraint};
 use imdp::progress::Progress;
 
@@ -41,16 +42,27 @@ pub(super) struct Steering {
 
 impl Steering {
     pub(super) fn new(problem: &Problem) -> Result<Self, AbstractionError> {
+        let (system, input) = (problem.system(), problem.input());
+        let layers = problem.stabilizer().and_then(Stabilizer::feedback).map(|feedback| &feedback.layers);
+        let shares = FeedbackLaw::shares(system, input, layers, &demands(problem)).map(|shares| {
+            sharing::better(problem, shares, |shares| {
+                FeedbackLaw::with_shares(system, input, layers, Some(shares))
+            })
+        });
+        let law = FeedbackLaw::with_shares(system, input, layers, shares.as_ref());
+        Ok(Self::of_law(problem, law.ok_or(AbstractionError::NotSteerable)?))
+    }
+
+    /// For a law that is given.
+    pub(super) fn of_law(problem: &Problem, law: FeedbackLaw) -> Self {
         let Actions::Targets(points) = problem.actions();
         let targets = Targets::new(points, problem.grid());
-        let layers = problem.stabilizer().map(|stabilizer| &stabilizer.layers);
-        let law = FeedbackLaw::new(problem.system(), problem.input(), layers, &demands(problem))
-            .ok_or(AbstractionError::NotSteerable)?;
+        let layers = problem.stabilizer().and_then(Stabilizer::feedback).map(|feedback| &feedback.layers);
         let extent = Extent { state: problem.grid().magnitudes(), target: targets.magnitudes() };
         let constraints =
             law.constraints(problem.input(), layers.map(|layers| layers.abstract_input()), &extent);
         let centers = problem.grid().axes().iter().map(|axis| axis.centers()).collect();
-        Ok(Self { targets, law, extent, constraints, centers })
+        Self { targets, law, extent, constraints, centers }
     }
 
     /// The actions that the law allows in each of `cells`.

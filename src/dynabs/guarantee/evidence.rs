@@ -42,6 +42,9 @@ pub struct SampleEvidence {
     /// For actions that are inputs: what is assumed of the components of the noise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub components: Option<Components>,
+    /// Whether the actions of the model are those near a plan.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub follows_plan: bool,
 }
 
 impl SampleEvidence {

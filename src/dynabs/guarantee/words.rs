@@ -32,6 +32,19 @@ const FIXED_BEFOREHAND_TASK: &[&str] = &[
     FIXED_BEFOREHAND[9],
 ];
 
+/// The same where a plan is followed: like a policy, it is free, and what it leaves.
+const FIXED_BEFOREHAND_PLAN: &[&str] = &[
+    FIXED_BEFOREHAND[0],
+    FIXED_BEFOREHAND[1],
+    FIXED_BEFOREHAND[2],
+    FIXED_BEFOREHAND[3],
+    FIXED_BEFOREHAND[4],
+    FIXED_BEFOREHAND[6],
+    FIXED_BEFOREHAND[7],
+    FIXED_BEFOREHAND[8],
+    "sweep, the number of settings that are compiled with these samples and differ in more than plan and U'",
+];
+
 /// What the promise presupposes of noise and samples.
 const ASSUMES: &[&str] = &[
     "the samples are independent of each other and all have the distribution of the noise at run time",
@@ -137,6 +150,13 @@ impl Guarantee {
                 self.fixed_beforehand().join(", ")
             ));
         }
+        if self.samples().is_some_and(|samples| samples.follows_plan) {
+            sentences.push(
+                "The plan that is followed, and how far from it actions may be (U'), may be chosen with the samples known: \
+                 as any policy, all of them are covered."
+                    .to_owned(),
+            );
+        }
         sentences
     }
 
@@ -187,6 +207,7 @@ impl Guarantee {
         match self.evidence {
             Evidence::Samples(SampleEvidence { components: Some(_), .. }) => FIXED_BEFOREHAND_INPUTS,
             Evidence::Samples(_) if self.event.task.is_some() => FIXED_BEFOREHAND_TASK,
+            Evidence::Samples(SampleEvidence { follows_plan: true, .. }) => FIXED_BEFOREHAND_PLAN,
             Evidence::Samples(_) => FIXED_BEFOREHAND,
             Evidence::Known { .. } | Evidence::Published { .. } => &[],
         }

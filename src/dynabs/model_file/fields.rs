@@ -3,6 +3,7 @@
 use super::dynamics::DynamicsSpec;
 use super::named::Named;
 use super::set_fields::{GridSpec, SetSpec};
+use super::stabilizer_fields::{LqrSpec, StabilizerSpec};
 use super::task_fields::{ShapesSpec, TaskSpec};
 use crate::problem::DistributionParts;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -37,7 +38,7 @@ pub(super) struct ModelFile {
     /// The inputs allowed in one step: a box or a polytope; for actions "inputs" also which of them to choose from.
     #[serde(default)]
     pub(super) input: Option<SetSpec>,
-    /// A lower layer of linear feedback that stabilises the system.
+    /// A lower layer: linear feedback that stabilises the system, or a plan to follow.
     #[serde(default)]
     pub(super) stabilizer: Option<StabilizerSpec>,
     /// For actions "inputs": in the cell with center c the input is u = ū − K (x − c).
@@ -163,23 +164,6 @@ pub(super) struct GaussianSpec {
     pub(super) covariance: Vec<Vec<f64>>,
 }
 
-/// A lower layer `u = −K (x − x̄) + u′` on the grouped system (d·p inputs).
-#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct StabilizerSpec {
-    /// Weights from which the gain is computed.
-    #[serde(default)]
-    pub(super) lqr: Option<LqrSpec>,
-    /// The gain `K` itself, (d·p)×n.
-    #[serde(default)]
-    pub(super) gain: Option<Vec<Vec<f64>>>,
-    /// `x̄`, the state to stabilise about; 0 if absent.
-    #[serde(default)]
-    pub(super) about: Option<Vec<f64>>,
-    /// `U′`, what is left to the abstraction: a box or polytope of d·p inputs that contains 0.
-    pub(super) abstract_input: SetSpec,
-}
-
 /// Local feedback: exactly one of `gain`, `lqr` and `narrow`.
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -194,22 +178,6 @@ pub(super) struct FeedbackSpec {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub(super) narrow: Option<f64>,
-}
-
-/// The weights of a linear-quadratic regulator for the grouped system.
-#[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct LqrSpec {
-    /// `Q`, n×n, symmetric positive definite.
-    #[serde(rename = "Q")]
-    pub(super) q: Vec<Vec<f64>>,
-    /// `R`, (d·p)×(d·p), symmetric positive definite.
-    #[serde(rename = "R")]
-    pub(super) r: Vec<Vec<f64>>,
-    /// Rounds the gain to this many decimals; not at all if absent.
-    #[serde(default)]
-    #[schemars(range(max = 300))]
-    pub(super) decimals: Option<u32>,
 }
 
 /// The points that actions steer to.

@@ -1,11 +1,10 @@
 //! From the fields of a model file to the parts of a problem whose actions are inputs.
 
-use super::fields::{
-    FeedbackSpec, IndependentSpec, LqrSpec, ModelFile, NoiseSpec, ProbabilitiesSpec, TargetsSpec,
-};
+use super::fields::{FeedbackSpec, IndependentSpec, ModelFile, NoiseSpec, ProbabilitiesSpec, TargetsSpec};
 use super::given::given;
 use super::parts::{self, costs, input_set, partition, probabilities};
 use super::set_fields::SetSpec;
+use super::stabilizer_fields::LqrSpec;
 use super::task_parts::task;
 use crate::Diagnostic;
 use crate::problem::{

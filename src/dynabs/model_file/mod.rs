@@ -10,6 +10,8 @@ mod named;
 mod parts;
 mod schema;
 mod set_fields;
+mod stabilizer_fields;
+mod stabilizer_parts;
 mod stated;
 mod task_fields;
 mod task_parts;

@@ -3,17 +3,17 @@
 use super::dynamics::DynamicsSpec;
 use super::fields::{
     CostSpec, GaussianSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec, SampleKindSpec, SamplesSpec,
-    StabilizerSpec, TargetsSpec,
+    TargetsSpec,
 };
 use super::given::given;
 use super::named::Named;
 use super::set_fields::{GridSpec, SetSpec};
+use super::stabilizer_parts::lower_layer;
 use super::task_parts::task;
 use crate::Diagnostic;
 use crate::problem::{
-    CostParts, DrawnNoise, Gain, GaussianNoise, GivenSamples, InputSet, LinearDynamics, LowerLayer,
-    LqrWeights, NoiseSource, Partition, Probabilities, Problem, ProblemBuilder, SampleKind, SamplesFile,
-    TargetChoice,
+    CostParts, DrawnNoise, GaussianNoise, GivenSamples, InputSet, LinearDynamics, NoiseSource, Partition,
+    Probabilities, Problem, ProblemBuilder, SampleKind, SamplesFile, TargetChoice,
 };
 use std::path::Path;
 
@@ -91,19 +91,6 @@ pub(super) fn input_set(place: &str, spec: SetSpec) -> Result<InputSet, Diagnost
             Err(Diagnostic::at(place, found, "a box {lower, upper} or a polytope {G, g}"))
         }
     }
-}
-
-fn lower_layer(spec: StabilizerSpec) -> Result<LowerLayer, Diagnostic> {
-    let gain = match (spec.lqr, spec.gain) {
-        (Some(lqr), None) => Gain::Lqr(LqrWeights { q: lqr.q, r: lqr.r, decimals: lqr.decimals }),
-        (None, Some(gain)) => Gain::Given(gain),
-        (lqr, _) => {
-            let found = if lqr.is_some() { "both lqr and gain" } else { "neither lqr nor gain" };
-            return Err(Diagnostic::at("/stabilizer", found, "exactly one of lqr and gain"));
-        }
-    };
-    let abstract_input = input_set("/stabilizer/abstract_input", spec.abstract_input)?;
-    Ok(LowerLayer { gain, about: spec.about, abstract_input })
 }
 
 pub(super) fn partition(spec: GridSpec) -> Partition {

@@ -7,7 +7,7 @@ use super::problem::Problem;
 use super::values::{name, vector};
 use super::{
     Cost, CostParts, Dynamics, GroupSteps, InputSet, LowerLayer, NoiseSource, Partition, Probabilities,
-    TargetChoice, Task, checked_task, dynamics, lower_layer, regions,
+    Stabilizer, TargetChoice, Task, checked_task, dynamics, regions, tracking,
 };
 use crate::partition::Grid;
 use crate::system::{Variable, group};
@@ -69,7 +69,7 @@ impl ProblemBuilder {
         self
     }
 
-    /// A lower layer of linear feedback; by default there is none.
+    /// A lower layer, of linear feedback or with a plan to follow; by default there is none.
     pub fn lower_layer(mut self, layer: LowerLayer) -> Self {
         self.lower_layer = Some(layer);
         self
@@ -161,16 +161,18 @@ impl ProblemBuilder {
         let worst_task = checked_task::at_worst(&task)?;
         let system = group(&step_system, group_steps);
         let input = step_input.power(group_steps);
-        let stabilizer =
-            self.lower_layer.map(|layer| lower_layer::stabilizer(&layer, &system, &input, &grid));
+        let stabilizer = self.lower_layer.map(|layer| Stabilizer::new(&layer, &system, &input, &grid));
         let stabilizer = stabilizer.transpose()?;
+        if stabilizer.as_ref().is_some_and(|layer| layer.tracking().is_some()) {
+            tracking::require_no_memory(&task.objective)?;
+        }
         let noise = noise.plant_noise(&step_system, group_steps)?;
         let safety = checked_task::safety(wanted.check, group_steps, &noise, &self.probabilities)?;
         let mut warnings = task.warnings;
         if let Some(fewest) = trials.first().filter(|fewest| fewest.steps < group_steps) {
             warnings.push(Warning::Grouped { steps: group_steps, fewest: fewest.clone() });
         }
-        warnings.extend(stabilizer.iter().flat_map(|s| s.warnings.iter().cloned()));
+        warnings.extend(stabilizer.iter().flat_map(|layer| layer.warnings().iter().cloned()));
         warnings.extend(noise.samples().iter().flat_map(|samples| samples.warnings.iter().cloned()));
         Ok(Problem {
             name: name(self.name)?,

@@ -1,6 +1,7 @@
-//! The lower layer: an LQR gain or a given one.
+//! The lower layer: linear feedback with an LQR gain or a given one, or a plan to follow.
 
 use super::InputSet;
+use super::tracking::{Tracking, TrackingLayer};
 use super::values::{matrix, symmetric, vector};
 use crate::Diagnostic;
 use crate::Warning;
@@ -10,9 +11,18 @@ use crate::partition::Grid;
 use crate::system::{LinearSystem, Lqr, TwoLayer, decimal_gain, lower_layer_violation};
 use nalgebra::DMatrix;
 
-/// A lower layer `u = −K (x − x̄) + u′` on the grouped system (`d·p` inputs).
+/// What is done without being asked, on the grouped system (`d·p` inputs); `u′` is left to the abstraction.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LowerLayer {
+pub enum LowerLayer {
+    /// `u = −K (x − x̄) + u′`: the paper's.
+    Feedback(FeedbackLayer),
+    /// `u = u_plan(x) + u′`: in every cell the input that steers where a plan says.
+    Tracking(TrackingLayer),
+}
+
+/// A lower layer `u = −K (x − x̄) + u′`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FeedbackLayer {
     /// `K`, or where it comes from.
     pub gain: Gain,
     /// `x̄`, the state to stabilise about; 0 if absent.
@@ -41,9 +51,18 @@ pub struct LqrWeights {
     pub decimals: Option<u32>,
 }
 
+/// A lower layer that fits its problem.
+#[derive(Clone, Debug)]
+pub enum Stabilizer {
+    /// Linear feedback.
+    Feedback(Box<LinearStabilizer>),
+    /// A plan to follow.
+    Tracking(Tracking),
+}
+
 /// A two-layer design and how its gain was found.
 #[derive(Clone, Debug)]
-pub struct Stabilizer {
+pub struct LinearStabilizer {
     /// The closed loop.
     pub layers: TwoLayer,
     /// The relative residual of the Riccati equation, if the gain is an LQR gain.
@@ -52,20 +71,63 @@ pub struct Stabilizer {
     pub warnings: Vec<Warning>,
 }
 
-/// Builds the lower layer for the grouped `system` with inputs `input`.
-pub(super) fn stabilizer(
-    layer: &LowerLayer,
+impl Stabilizer {
+    /// Builds a lower layer for the grouped `system` with inputs `input`.
+    pub(super) fn new(
+        layer: &LowerLayer,
+        system: &LinearSystem,
+        input: &Polytope,
+        grid: &Grid,
+    ) -> Result<Self, Diagnostic> {
+        match layer {
+            LowerLayer::Feedback(layer) => {
+                linear(layer, system, input, grid).map(|layer| Self::Feedback(Box::new(layer)))
+            }
+            LowerLayer::Tracking(layer) => Tracking::new(layer, input, grid).map(Self::Tracking),
+        }
+    }
+
+    /// The linear feedback, if that is what it is.
+    pub fn feedback(&self) -> Option<&LinearStabilizer> {
+        match self {
+            Self::Feedback(feedback) => Some(feedback),
+            Self::Tracking(_) => None,
+        }
+    }
+
+    /// The plan to follow, if that is what it does.
+    pub fn tracking(&self) -> Option<&Tracking> {
+        match self {
+            Self::Feedback(_) => None,
+            Self::Tracking(tracking) => Some(tracking),
+        }
+    }
+
+    /// What the user should know.
+    pub fn warnings(&self) -> &[Warning] {
+        self.feedback().map_or(&[], |feedback| &feedback.warnings)
+    }
+}
+
+/// `U′` at a field, if it contains 0.
+pub(super) fn abstract_input(set: &InputSet, inputs: usize, remedy: &str) -> Result<Polytope, Diagnostic> {
+    let place = "/stabilizer/abstract_input";
+    let set = set.polytope(place, inputs)?;
+    if !set.contains_origin() {
+        return Err(Diagnostic::at(place, "a set without 0", "a set U′ that contains 0").remedy(remedy));
+    }
+    Ok(set)
+}
+
+fn linear(
+    layer: &FeedbackLayer,
     system: &LinearSystem,
     input: &Polytope,
     grid: &Grid,
-) -> Result<Stabilizer, Diagnostic> {
+) -> Result<LinearStabilizer, Diagnostic> {
     let (n, p) = (system.state_dimension(), system.input_dimension());
-    let place = "/stabilizer/abstract_input";
-    let abstract_input = layer.abstract_input.polytope(place, p)?;
-    if !abstract_input.contains_origin() {
-        return Err(Diagnostic::at(place, "a set without 0", "a set U′ that contains 0")
-            .remedy("Shift U′, or stabilise about another state with /stabilizer/about."));
-    }
+    let remedy = "Shift U′, or stabilise about another state with /stabilizer/about.";
+    let abstract_input = abstract_input(&layer.abstract_input, p, remedy)?;
     let (gain, riccati_residual) = match &layer.gain {
         Gain::Lqr(weights) => {
             let (a, b) = (system.a().to_f64(), system.b().to_f64());
@@ -94,7 +156,7 @@ pub(super) fn stabilizer(
         .remedy("Change the gain or the weights a little."));
     }
     let warnings = warnings(&layers, input, grid);
-    Ok(Stabilizer { layers, riccati_residual, warnings })
+    Ok(LinearStabilizer { layers, riccati_residual, warnings })
 }
 
 /// The gain for `A` (`n×n`) and `B` (`n×p`) with the weights at `place`, and its residual.

@@ -46,6 +46,7 @@ mod problem;
 mod regions;
 mod target_id;
 mod task;
+mod tracking;
 mod values;
 
 pub use builder::ProblemBuilder;
@@ -57,7 +58,7 @@ pub use feedback_choice::FeedbackChoice;
 pub use input_noise::{Components, InputNoise, InputNoiseParts, JointGaussian, StepSamples};
 pub use input_problem::{InputChoice, InputParts, InputProblem};
 pub use input_set::InputSet;
-pub use lower_layer::{Gain, LowerLayer, LqrWeights, Stabilizer};
+pub use lower_layer::{FeedbackLayer, Gain, LinearStabilizer, LowerLayer, LqrWeights, Stabilizer};
 pub use noise::{
     DrawnNoise, GaussianNoise, GivenSamples, NoiseOrigin, NoiseSource, SampleKind, SampledNoise, SamplesFile,
     StepNoise,
@@ -68,3 +69,4 @@ pub use problem::{Actions, Knowledge, Objective, Problem, TargetPoints};
 pub use regions::{Partition, RegionBox, RegionParts, ShapeParts, TargetChoice};
 pub use target_id::TargetId;
 pub use task::{Hazard, Horizon, Leg, Logic, Task, Wanted};
+pub use tracking::{AUTOMATIC_SHARE, Heading, Tracking, TrackingLayer};

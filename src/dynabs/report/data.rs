@@ -1,5 +1,7 @@
 //! The numbers that a page's script redraws plots from.
 
+use super::budget::fits;
+use super::choice::plain;
 use super::input_material::InputMaterial;
 use super::markup::escape;
 use super::material::Material;
@@ -12,15 +14,12 @@ use super::sides::sides;
 use super::values::StepValues;
 use super::view::{Axis, View};
 use crate::partition::{CellId, CellKind, Region};
-use crate::task::{HalfSpace, Memory};
+use crate::task::HalfSpace;
 use data_encoding::BASE64;
 use serde_json::{Value, json};
 
-/// Beyond this many cells, counted for each memory, a page is static.
-const MOST_CELLS: u64 = 300_000;
-
-/// The most ranges of enabled actions that are embedded.
-const MOST_RANGES: usize = 400_000;
+/// The most bytes of ranges of enabled actions.
+const MOST_OF_RANGES: usize = 700_000;
 
 /// What is embedded, and what is left out for its size.
 pub(super) struct Embedded {
@@ -38,19 +37,35 @@ pub(super) struct EmbeddedActions {
 
 /// Everything that the script needs; `actions` is asked only if the page is not static.
 pub(super) fn embed(scene: &Scene<'_>, view: &View, actions: impl FnOnce() -> EmbeddedActions) -> Embedded {
-    let (cells, maps) = (scene.grid.num_cells(), 1 + scene.memories.len());
-    if u64::from(cells) * maps as u64 > MOST_CELLS {
+    if !scene.is_embedded() {
+        let (cells, maps) = (scene.grid.num_cells(), 1 + scene.memories.len());
         let of_memories = if maps > 1 { format!(" with {} memories", maps - 1) } else { String::new() };
-        let note = format!("{cells} cells{of_memories} are too many to embed: the plots cannot be changed");
-        return Embedded { json: "null".into(), left_out: vec![note] };
+        return fixed(format!(
+            "{cells} cells{of_memories} are too many to embed: the plots cannot be changed"
+        ));
     }
+    let embedded = everything(scene, view, actions());
+    match fits(&embedded.json) {
+        true => embedded,
+        false => {
+            fixed("values and actions of all cells are too much to embed: the plots cannot be changed".into())
+        }
+    }
+}
+
+/// Nothing, and why.
+fn fixed(note: String) -> Embedded {
+    Embedded { json: "null".into(), left_out: vec![note] }
+}
+
+fn everything(scene: &Scene<'_>, view: &View, actions: EmbeddedActions) -> Embedded {
+    let maps = 1 + scene.memories.len();
     let mut left_out = vec![];
     let is_left_out = |horizon: &u64| *horizon > scene.values.last_step() as u64 && maps == 1;
     if let Some(horizon) = scene.horizon.filter(is_left_out) {
         let last = scene.values.last_step();
         left_out.push(format!("values after step {last} of {horizon}"));
     }
-    let actions = actions();
     left_out.extend(actions.left_out);
     let kind = |(before, cell)| match scene.actions.kind(before, cell) {
         CellKind::Ordinary => 0,
@@ -74,10 +89,15 @@ pub(super) fn embed(scene: &Scene<'_>, view: &View, actions: impl FnOnce() -> Em
         "upper": range(|(_, upper)| upper),
         "cells": scene.grid.axes().iter().map(|axis| axis.cells()).collect::<Vec<_>>(),
         "strides": scene.grid.strides(),
+        "plain": (0..scene.dimension()).map(|j| escape(&plain(scene, j))).collect::<Vec<_>>(),
+        "units": scene.units,
+        "periods": scene.periods,
+        "scale": [scene.scale.from, scene.scale.to],
+        "scaleLabels": scene.scale.labels(),
         "colours": (0..LEVELS).map(colour).collect::<Vec<_>>(),
         "firstLight": FIRST_LIGHT_LEVEL,
         "values": {"type": "f32", "data": BASE64.encode(&bytes)},
-        "kinds": packed(arrivals(scene).map(kind)),
+        "kinds": packed(scene.arrivals().map(kind)),
         "policy": policy(scene),
         "goal": regions(scene.wanted, scene.dimension()),
         "unsafe": regions(scene.unsafe_, scene.dimension()),
@@ -99,25 +119,19 @@ pub(super) fn embed(scene: &Scene<'_>, view: &View, actions: impl FnOnce() -> Em
         value.extend(fields);
     }
     // Nothing in a script element may look like its end.
+    if scene.trajectories.len() < scene.wanted_runs as usize {
+        let (drawn, wanted) = (scene.trajectories.len(), scene.wanted_runs);
+        left_out.push(format!("runs after the first {drawn} of {wanted}, which have many steps"));
+    }
     Embedded { json: value.to_string().replace('<', "\\u003c"), left_out }
-}
-
-/// All cells at the start, then with each memory before.
-fn arrivals(scene: &Scene<'_>) -> impl Iterator<Item = (Option<Memory>, CellId)> + use<> {
-    let cells = scene.grid.num_cells();
-    scene.before().flat_map(move |before| (0..cells).map(move |cell| (before, CellId(cell))))
 }
 
 /// The actions of every cell by the steps left.
 fn policy(scene: &Scene<'_>) -> Value {
-    let mut starts = vec![0];
-    let mut all = vec![];
-    for (before, cell) in arrivals(scene) {
-        all.extend(scene.actions.entries(before, cell));
-        starts.push(all.len() as u32);
-    }
+    let entries: Vec<_> = scene.arrivals().map(|(before, cell)| scene.shown_entries(before, cell)).collect();
+    let all = entries.concat();
     json!({
-        "starts": packed(starts.into_iter()),
+        "counts": packed(entries.iter().map(|entries| entries.len() as u32)),
         "left": packed(all.iter().map(|(left, _)| u32::try_from(*left).unwrap_or(u32::MAX))),
         "target": packed(all.iter().map(|(_, action)| *action)),
     })
@@ -138,8 +152,8 @@ pub(super) fn steering(material: &Material<'_>) -> EmbeddedActions {
 pub(super) fn inputs(material: &InputMaterial<'_>) -> EmbeddedActions {
     let scene = &material.scene;
     let mut bytes = vec![];
-    for (before, cell) in arrivals(scene) {
-        for (_, action) in scene.actions.entries(before, cell) {
+    for (before, cell) in scene.arrivals() {
+        for (_, action) in scene.shown_entries(before, cell) {
             let to = scene.actions.successor(cell, action);
             bytes.extend(to.iter().flat_map(|&x| (x as f32).to_le_bytes()));
         }
@@ -168,18 +182,13 @@ fn ranges(material: &Material<'_>) -> Option<Value> {
     let abstraction = &material.run.abstraction;
     let of = |cell: u32| abstraction.ranges(CellId(cell));
     let cells = 0..material.problem().grid().num_cells();
-    let mut starts = vec![0];
-    for cell in cells.clone() {
-        starts.push(starts[starts.len() - 1] + of(cell).len() as u32);
-    }
     let all = || cells.clone().flat_map(of);
-    (starts[starts.len() - 1] as usize <= MOST_RANGES).then(|| {
-        json!({
-            "starts": packed(starts.iter().copied()),
-            "first": packed(all().map(|range| abstraction.target(range.first).0)),
-            "length": packed(all().map(|range| range.len() as u32)),
-        })
-    })
+    let ranges = json!({
+        "counts": packed(cells.clone().map(|cell| of(cell).len() as u32)),
+        "first": packed(all().map(|range| abstraction.target(range.first).0)),
+        "length": packed(all().map(|range| range.len() as u32)),
+    });
+    (ranges.to_string().len() <= MOST_OF_RANGES).then_some(ranges)
 }
 
 fn regions(regions: &[Region], dimension: usize) -> Value {

@@ -8,6 +8,7 @@ use super::task::{boxes, task};
 use crate::geometry::Polytope;
 use crate::linear_algebra::ExactMatrix;
 use crate::partition::GridAxis;
+use crate::problem::Stabilizer;
 use crate::system::LinearSystem;
 use imdp::numeric::to_f64;
 use num_traits::{Signed, Zero};
@@ -25,7 +26,7 @@ pub(super) fn model(material: &Material<'_>) -> String {
             system(problem.system(), "Â", "B̂", "q̂", "û")
         );
     }
-    if let Some(stabilizer) = problem.stabilizer() {
+    if let Some(stabilizer) = problem.stabilizer().and_then(Stabilizer::feedback) {
         let layers = &stabilizer.layers;
         let input = if d > 1 { "û" } else { "u" };
         let about = layers.about();
@@ -44,6 +45,18 @@ pub(super) fn model(material: &Material<'_>) -> String {
         text += &format!(
             "<p>Inputs left to the upper layer, {}</p>\n",
             input_set(layers.abstract_input(), "u′", "U′")
+        );
+    }
+    if let Some(tracking) = problem.stabilizer().and_then(Stabilizer::tracking) {
+        let input = if d > 1 { "û" } else { "u" };
+        text += &format!(
+            "<p>Two layers: the lower one steers from every cell where a plan says, the upper one chooses u′.</p>\n{}<p>Inputs \
+             left to the upper layer, {}</p>\n",
+            block(&format!(
+                "<mi>{input}</mi><mo>=</mo><msub><mi>{input}</mi><mtext>plan</mtext></msub><mo>(</mo><mi>x</mi><mo>)</mo><mo>+</mo>\
+                 <msup><mi>u</mi><mo>′</mo></msup>"
+            )),
+            input_set(tracking.abstract_input(), "u′", "U′")
         );
     }
     text += &partition(&material.scene);

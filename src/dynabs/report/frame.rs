@@ -33,7 +33,18 @@ pub(super) struct Frame {
 impl Frame {
     /// A frame of a given size for `x` in `across` and `y` in `up`.
     pub(super) fn new(size: (f64, f64), across: (f64, f64), up: (f64, f64)) -> Self {
-        let (left, top, (width, height)) = (64.0, 16.0, size);
+        Self::at(64.0, size, across, up)
+    }
+
+    /// A frame as large as fits into `size`, and in the middle of it, where both axes have the same scale.
+    pub(super) fn equal(size: (f64, f64), across: (f64, f64), up: (f64, f64)) -> Self {
+        let scale = (size.0 / (across.1 - across.0)).min(size.1 / (up.1 - up.0));
+        let fitting = (((across.1 - across.0) * scale).round(), ((up.1 - up.0) * scale).round());
+        Self::at(64.0 + ((size.0 - fitting.0) / 2.0).floor(), fitting, across, up)
+    }
+
+    fn at(left: f64, size: (f64, f64), across: (f64, f64), up: (f64, f64)) -> Self {
+        let (top, (width, height)) = (16.0, size);
         let x = Scale { from: across.0, to: across.1, start: left, end: left + width };
         let y = Scale { from: up.0, to: up.1, start: top + height, end: top };
         Self { left, top, width, height, x, y }
@@ -77,9 +88,10 @@ impl Frame {
         let (middle, half) = (left + width / 2.0, top + height / 2.0);
         text += &format!(
             "<text class=\"name\" x=\"{middle}\" y=\"{}\" text-anchor=\"middle\">{}</text><text class=\"name\" \
-             transform=\"translate(16 {half}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+             transform=\"translate({} {half}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
             bottom + 38.0,
             escape(across),
+            left - 48.0,
             escape(up)
         );
         text

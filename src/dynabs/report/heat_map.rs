@@ -4,19 +4,20 @@ use super::frame::Frame;
 use super::markup::{Plot, group};
 use super::numbers::{coordinate, short};
 use super::outlines::outlines;
-use super::palette::{LEVELS, colour, level};
+use super::palette::{LEVELS, colour};
 use super::paths::{arrows, runs};
 use super::regions::{hatch, regions};
 use super::scene::Scene;
 use super::view::View;
 
 /// The size of the frame of the map.
-const SIZE: (f64, f64) = (560.0, 420.0);
+const SIZE: (f64, f64) = (548.0, 420.0);
 
 /// The value function over a plane, with regions, vector field and runs.
 pub(super) fn heat_map(scene: &Scene<'_>, view: &View) -> Plot {
     let id = "map";
-    let frame = Frame::new(SIZE, view.range_across(scene), scene.range(view.up));
+    let frame_of = if view.is_equal(scene) { Frame::equal } else { Frame::new };
+    let frame = frame_of(SIZE, view.range_across(scene), scene.range(view.up));
     let (across, up) = view.names(scene);
     let inside = [
         group("heat", &squares(scene, view, &frame)),
@@ -32,12 +33,12 @@ pub(super) fn heat_map(scene: &Scene<'_>, view: &View) -> Plot {
         gradient(),
         inside.concat(),
         group("axes", &frame.axes(&across, &up)),
-        group("scale", &colour_bar(&frame)),
+        group("scale", &colour_bar(scene, &frame)),
     );
     Plot {
         id,
         width: 720.0,
-        height: 484.0,
+        height: frame.height + 64.0,
         title: format!("{}: {} over {across} and {up}", scene.name, scene.value_name()),
         description: description(scene, view),
         content,
@@ -48,10 +49,13 @@ pub(super) fn heat_map(scene: &Scene<'_>, view: &View) -> Plot {
 fn description(scene: &Scene<'_>, view: &View) -> String {
     let at = view.at(scene, view.fixed());
     format!(
-        "The {}{at}, from dark (0) to light (1); the unsafe region is hatched, the \
-         goal outlined; arrows point from the centers of cells towards the mean of the next state; lines are {} \
+        "The {}{at}, from dark ({}) to light ({}); the unsafe region is hatched, the \
+         {} outlined; arrows point from the centers of cells towards the mean of the next state; lines are {} \
          simulated runs.",
         scene.value_name(),
+        short(scene.scale.from),
+        short(scene.scale.to),
+        scene.wanted_name,
         scene.trajectories.len()
     )
 }
@@ -77,7 +81,7 @@ fn squares(scene: &Scene<'_>, view: &View, frame: &Frame) -> String {
                 let (cell, step) = view.cell(scene, i, j);
                 scene.values.at(step)[cell.index()]
             });
-            let here = Some(level(least.fold(1.0, f32::min)));
+            let here = Some(scene.scale.level(least.fold(1.0, f32::min)));
             if here != open.1 {
                 if let (from, Some(level)) = open {
                     add(from, i, level);
@@ -104,23 +108,28 @@ fn gradient() -> String {
     )
 }
 
-fn colour_bar(frame: &Frame) -> String {
+/// All colours, with the values that they stand for, and what these are.
+fn colour_bar(scene: &Scene<'_>, frame: &Frame) -> String {
     let left = frame.left + frame.width + 20.0;
     let (top, height) = (frame.top, frame.height);
     let mut text = format!(
         "<rect class=\"border\" fill=\"url(#map-colours)\" x=\"{left}\" y=\"{top}\" width=\"16\" height=\"{height}\" \
          style=\"fill:url(#map-colours)\"/>"
     );
-    for tick in [0.0, 0.2, 0.4, 0.6, 0.8, 1.0] {
-        let y = top + height * (1.0 - tick);
+    for (place, label) in scene.scale.labels() {
+        let y = top + height * (1.0 - place);
         text += &format!(
             "<path class=\"tick\" d=\"M{} {}h5\"/><text class=\"number\" x=\"{}\" y=\"{}\">{}</text>",
             left + 16.0,
             coordinate(y),
             left + 25.0,
             coordinate(y + 4.0),
-            short(tick)
+            label
         );
     }
-    text
+    let (x, middle) = (left + 84.0, top + height / 2.0);
+    let name = scene.value_name();
+    text + &format!(
+        "<text class=\"name\" transform=\"translate({x} {middle}) rotate(-90)\" text-anchor=\"middle\">{name}</text>"
+    )
 }

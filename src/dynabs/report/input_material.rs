@@ -1,14 +1,18 @@
 //! What a report of actions that are inputs is made of.
 
+use super::budget::drawn;
+use super::choice::{ViewChoice, ViewError};
 use super::material::{MOST_STEPS, MaterialOptions};
 use super::numbers::tuple;
 use super::outlines::Outlined;
-use super::scene::{Scene, SceneActions, faces};
+use super::palette::ColourScale;
+use super::scene::{Scene, SceneActions, faces, wanted_name};
 use super::values::StepValues;
+use super::view::View;
 use crate::controller::{Controller, ParameterChoice, Simulation};
 use crate::landing::LandingSolution;
 use crate::partition::CellId;
-use crate::problem::InputNoise;
+use crate::problem::{InputNoise, InputProblem};
 use crate::run::InputRun;
 use crate::task::Safety;
 use imdp::numeric::to_f64;
@@ -25,6 +29,7 @@ pub struct InputMaterial<'a> {
     /// The upper bound at the start.
     pub(super) upper: f64,
     pub(super) scene: Scene<'a>,
+    pub(super) view: View,
 }
 
 impl<'a> InputMaterial<'a> {
@@ -45,8 +50,7 @@ impl<'a> InputMaterial<'a> {
         let start = problem.initial_state().map_or_else(center, <[f64]>::to_vec);
         let simulation = Simulation::of_inputs(problem, controller, ParameterChoice::Random, MOST_STEPS);
         let tally = simulation.tally(&start, options.seed, options.runs, progress);
-        let drawn = 0..options.drawn;
-        let trajectories = drawn.map(|run| simulation.trajectory(&start, options.seed, run)).collect();
+        let trajectories = drawn(options.drawn, |run| simulation.trajectory(&start, options.seed, run));
         let threshold = problem.threshold().map(|threshold| threshold.to_f64());
         let promised = controller.promised().bound;
         let upper = solution.values.upper[start_cell.index()];
@@ -56,6 +60,8 @@ impl<'a> InputMaterial<'a> {
             grid: problem.grid(),
             names: states.iter().map(|state| state.name.clone()).collect(),
             units: states.iter().map(|state| state.unit.clone()).collect(),
+            periods: periods(problem),
+            wanted_name: wanted_name(problem.objective()),
             wanted: problem.objective().wanted(),
             named: Outlined::of(problem.objective().named()),
             unsafe_: problem.unsafe_regions(),
@@ -76,17 +82,35 @@ impl<'a> InputMaterial<'a> {
             bound: controller.bound_at(&start),
             start,
             tally,
+            wanted_runs: options.drawn,
             trajectories,
             actions: Box::new(Applying { run, controller, noise_mean: mean(problem.noise(), states.len()) }),
+            scale: ColourScale { from: 0.0, to: 1.0 },
             faces: faces(problem.grid()),
         };
+        let scene = scene.finished();
         let satisfied = threshold.and_then(|threshold| match () {
             () if promised >= threshold => Some(true),
             () if upper < threshold => Some(false),
             () => None,
         });
-        Self { run, solution, controller, options, satisfied, upper, scene }
+        let view = View::first(&scene);
+        Self { run, solution, controller, options, satisfied, upper, scene, view }
     }
+
+    /// The same with another plane in the first view.
+    ///
+    /// # Errors
+    /// [`ViewError`] if there is no such plane.
+    pub fn seen(self, choice: &ViewChoice) -> Result<Self, ViewError> {
+        Ok(Self { view: View::chosen(&self.scene, choice)?, ..self })
+    }
+}
+
+/// The lengths of periodic coordinates.
+fn periods(problem: &InputProblem) -> Vec<Option<f64>> {
+    let axes = problem.grid().axes().iter().zip(problem.periodic());
+    axes.map(|(axis, periodic)| periodic.then(|| to_f64(axis.upper()) - to_f64(axis.lower()))).collect()
 }
 
 /// The mean of the noise, for arrows.
@@ -146,6 +170,10 @@ impl SceneActions for Applying<'_> {
             [one] => format!("{one} = {}", super::numbers::short(self.controller.action(action)[0])),
             _ => format!("({}) = {}", names.join(", "), tuple(self.controller.action(action))),
         }
+    }
+
+    fn leads_by_cell(&self) -> bool {
+        true
     }
 
     fn enabled(&self, _: CellId) -> usize {

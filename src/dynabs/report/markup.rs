@@ -40,26 +40,36 @@ pub(super) struct Plot {
 impl Plot {
     /// As part of a page, which has the style.
     pub(super) fn inline(&self) -> String {
-        self.svg("")
+        self.svg("", "")
     }
 
     /// As a file of its own, light and on a background.
     pub(super) fn standalone(&self) -> String {
-        let style =
-            format!("<style>{PLOT_STYLE}</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n");
-        self.svg(&style)
+        let Self { width, height, .. } = self;
+        let style = format!(
+            "<style>{}</style>\n<rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\n",
+            light(PLOT_STYLE)
+        );
+        self.svg(&format!(" width=\"{width}\" height=\"{height}\""), &style)
     }
 
-    fn svg(&self, head: &str) -> String {
+    fn svg(&self, size: &str, head: &str) -> String {
         let Self { id, width, height, title, description, content } = self;
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" id=\"{id}\" class=\"plot\" viewBox=\"0 0 {width} {height}\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" id=\"{id}\" class=\"plot\"{size} viewBox=\"0 0 {width} {height}\" \
              role=\"img\" aria-labelledby=\"{id}-title {id}-description\">\n<title id=\"{id}-title\">{}</title>\n<desc \
              id=\"{id}-description\">{}</desc>\n{head}{content}</svg>\n",
             escape(title),
             escape(description)
         )
     }
+}
+
+/// The style with the variables of its first rule put in: programs other than browsers know none.
+fn light(style: &str) -> String {
+    let (variables, rules) = style.split_once("}\n").unwrap_or(("", style));
+    let variables = variables.trim_start_matches(".plot{").split(';').filter_map(|one| one.split_once(':'));
+    variables.fold(rules.to_owned(), |rules, (name, value)| rules.replace(&format!("var({name})"), value))
 }
 
 /// A table with a caption, a header and rows of safe markup.
@@ -81,7 +91,13 @@ pub(super) fn table(caption: &str, header: &[&str], rows: &[Vec<String>]) -> Str
 
 #[cfg(test)]
 mod tests {
-    use super::escape;
+    use super::{PLOT_STYLE, escape, light};
+
+    #[test]
+    fn files_need_no_variables() {
+        assert!(PLOT_STYLE.contains("fill:var(--ink)") && light(PLOT_STYLE).contains("fill:#1b1f24"));
+        assert!(!light(PLOT_STYLE).contains("--"));
+    }
 
     #[test]
     fn markup_is_disarmed() {

@@ -1,9 +1,13 @@
 //! What a report of actions that are targets is made of.
 
+use super::budget::drawn;
+use super::choice::{ViewChoice, ViewError};
 use super::numbers::{subscripted, tuple};
 use super::outlines::Outlined;
-use super::scene::{Scene, SceneActions, faces};
+use super::palette::ColourScale;
+use super::scene::{Scene, SceneActions, faces, wanted_name};
 use super::values::StepValues;
+use super::view::View;
 use crate::controller::{Controller, Noise, Simulation};
 use crate::partition::{CellId, CellKind};
 use crate::problem::{PlantNoise, Problem, StepNoise};
@@ -41,6 +45,7 @@ pub struct Material<'a> {
     /// The mean of the samples of the grouped noise.
     pub(super) noise_mean: Vec<f64>,
     pub(super) scene: Scene<'a>,
+    pub(super) view: View,
 }
 
 impl<'a> Material<'a> {
@@ -66,8 +71,7 @@ impl<'a> Material<'a> {
         };
         let simulation = Simulation::new(problem, controller, Noise::of_plant(problem.noise()), MOST_STEPS);
         let tally = simulation.tally(&start, options.seed, options.runs, progress);
-        let drawn = 0..options.drawn;
-        let trajectories = drawn.map(|run| simulation.trajectory(&start, options.seed, run)).collect();
+        let trajectories = drawn(options.drawn, |run| simulation.trajectory(&start, options.seed, run));
         let noise_mean = problem.noise().mean();
         let n = problem.grid().dimension();
         let scene = Scene {
@@ -75,6 +79,8 @@ impl<'a> Material<'a> {
             grid: problem.grid(),
             names: (1..=n).map(|j| subscripted("x", j)).collect(),
             units: vec![None; n],
+            periods: vec![None; n],
+            wanted_name: wanted_name(problem.objective()),
             wanted: problem.objective().wanted(),
             named: Outlined::of(problem.objective().named()),
             unsafe_: problem.unsafe_regions(),
@@ -92,11 +98,23 @@ impl<'a> Material<'a> {
             bound: controller.bound_at(&start),
             start,
             tally,
+            wanted_runs: options.drawn,
             trajectories,
             actions: Box::new(Steering { run, controller, noise_mean: noise_mean.clone() }),
+            scale: ColourScale { from: 0.0, to: 1.0 },
             faces: faces(problem.grid()),
         };
-        Self { run, answer, controller, options, noise_mean, scene }
+        let scene = scene.finished();
+        let view = View::first(&scene);
+        Self { run, answer, controller, options, noise_mean, scene, view }
+    }
+
+    /// The same with another plane in the first view.
+    ///
+    /// # Errors
+    /// [`ViewError`] if there is no such plane.
+    pub fn seen(self, choice: &ViewChoice) -> Result<Self, ViewError> {
+        Ok(Self { view: View::chosen(&self.scene, choice)?, ..self })
     }
 
     pub(super) fn problem(&self) -> &'a Problem {
@@ -123,6 +141,10 @@ impl SceneActions for Steering<'_> {
 
     fn words(&self, action: u32) -> String {
         format!("steer to d = {}", tuple(self.controller.action(action)))
+    }
+
+    fn leads_by_cell(&self) -> bool {
+        false
     }
 
     fn enabled(&self, cell: CellId) -> usize {

@@ -4,12 +4,15 @@
 //! complete on paper and without JavaScript. The script that comes with it redraws the plots from the embedded
 //! numbers when another plane, step or cell is chosen.
 
+mod budget;
+mod choice;
 mod data;
 mod formulas;
 mod frame;
 mod heat_map;
 mod input_formulas;
 mod input_material;
+mod legend;
 mod markup;
 mod material;
 mod numbers;
@@ -29,6 +32,7 @@ mod values;
 mod view;
 mod words;
 
+pub use choice::{ViewChoice, ViewError};
 pub use input_material::InputMaterial;
 pub use material::{Material, MaterialOptions};
 pub use page::{ReportError, input_page, page};
@@ -37,6 +41,7 @@ pub use results::{CROSS_CHECK, CrossCheckError, read_cross_checks};
 use heat_map::heat_map;
 use scene::Scene;
 use section::section;
+use view::View;
 
 /// A plot as an SVG file of its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,18 +54,17 @@ pub struct Picture {
 
 /// The plots of the page, as files: the value function with vector field and runs, and its cross-section.
 pub fn pictures(material: &Material<'_>) -> Vec<Picture> {
-    of_scene(&material.scene)
+    of_scene(&material.scene, &material.view)
 }
 
 /// The same for a run whose actions are inputs.
 pub fn input_pictures(material: &InputMaterial<'_>) -> Vec<Picture> {
-    of_scene(&material.scene)
+    of_scene(&material.scene, &material.view)
 }
 
-fn of_scene(scene: &Scene<'_>) -> Vec<Picture> {
-    let view = view::View::first(scene);
+fn of_scene(scene: &Scene<'_>, view: &View) -> Vec<Picture> {
     vec![
-        Picture { name: "value", svg: heat_map(scene, &view).standalone() },
-        Picture { name: "section", svg: section(scene, &view).standalone() },
+        Picture { name: "value", svg: heat_map(scene, view).standalone() },
+        Picture { name: "section", svg: section(scene, view).standalone() },
     ]
 }

@@ -35,12 +35,15 @@ pub(super) fn tuple(x: &[f64]) -> String {
     format!("({})", x.iter().map(|&x| short(x)).collect::<Vec<_>>().join(", "))
 }
 
+/// 1, 2 or 5 times a power of ten, at least `rough`.
+pub(super) fn round_step(rough: f64) -> f64 {
+    let power = 10f64.powf(rough.log10().floor());
+    [1.0, 2.0, 5.0, 10.0].iter().map(|m| m * power).find(|step| *step >= rough).unwrap_or(rough)
+}
+
 /// Round numbers in `[from, to]`, about `count` of them, 1, 2 or 5 times a power of ten apart.
 pub(super) fn ticks(from: f64, to: f64, count: f64) -> Vec<f64> {
-    let rough = (to - from) / count;
-    let power = 10f64.powf(rough.log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0].iter().map(|m| m * power).find(|step| *step >= rough);
-    let step = step.unwrap_or(rough);
+    let step = round_step((to - from) / count);
     // Ends that are ticks but for a rounding error count.
     let slack = 1e-9;
     let (first, last) = ((from / step - slack).ceil(), (to / step + slack).floor());

@@ -29,9 +29,14 @@ pub(super) fn outlines(scene: &Scene<'_>, view: &View, frame: &Frame) -> String 
         let (x, y) = middle(polygons.first()?, frame);
         let d: String = polygons.iter().map(|polygon| path(polygon, frame)).collect();
         let name = escape(&region.name);
+        // The halo is a text of its own: not all programs know the order of painting.
+        let text = |class: &str| {
+            format!("<text class=\"{class}\" x=\"{x}\" y=\"{y}\" text-anchor=\"middle\">{name}</text>")
+        };
         Some(format!(
-            "<path class=\"casing\" d=\"{d}\"/><path class=\"named outline\" d=\"{d}\"/><text class=\"named\" x=\"{x}\" \
-             y=\"{y}\" text-anchor=\"middle\">{name}</text>"
+            "<path class=\"casing\" d=\"{d}\"/><path class=\"named outline\" d=\"{d}\"/>{}{}",
+            text("halo"),
+            text("named")
         ))
     };
     scene.named.iter().filter_map(outline).collect()

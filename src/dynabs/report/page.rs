@@ -3,6 +3,7 @@
 use super::data::{Embedded, embed, inputs, steering};
 use super::heat_map::heat_map;
 use super::input_material::InputMaterial;
+use super::legend::legend;
 use super::markup::{PLOT_STYLE, escape};
 use super::material::Material;
 use super::picked::facts;
@@ -19,7 +20,15 @@ use askama::Template;
 use imdp::engines::CrossCheckFile;
 
 const STYLE: &str = include_str!("../templates/report.css");
-const SCRIPT: &str = include_str!("../templates/report.js");
+/// The script, part by part; the page makes one function of them.
+const SCRIPT: &str = concat!(
+    include_str!("../templates/report/data.js"),
+    include_str!("../templates/report/plane.js"),
+    include_str!("../templates/report/regions.js"),
+    include_str!("../templates/report/paths.js"),
+    include_str!("../templates/report/draw.js"),
+    include_str!("../templates/report/controls.js"),
+);
 
 /// Why there is no page.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -41,12 +50,14 @@ struct Page {
     mode: String,
     version: String,
     style: String,
+    verdict: String,
     guarantee: String,
     warnings: String,
     map: String,
-    named_key: &'static str,
+    legend: String,
     value_name: String,
-    leads: String,
+    wanted_name: &'static str,
+    scale: &'static str,
     about_runs: String,
     facts: String,
     section: String,
@@ -61,9 +72,6 @@ struct Page {
     data: String,
     script: String,
 }
-
-/// What stands for the regions that a task names.
-const NAMED_KEY: &str = " <span class=\"key named-key\"></span> region of the task";
 
 /// Where everything on a page comes from that is said of both kinds of actions.
 struct Sources<'a> {
@@ -86,6 +94,9 @@ struct Specifics {
     method: &'static str,
 }
 
+/// What is said of colours that do not go from 0 to 1.
+const FITTED: &str = " The scale is that of cells in which something is to be done; values beyond its ends have the colours there.";
+
 /// Where arrows of targets point.
 const TO_TARGETS: &str = "target plus mean noise";
 /// Where arrows of inputs point.
@@ -100,8 +111,7 @@ Distributions</cite>, European Control Conference 2024.";
 /// # Errors
 /// [`ReportError`] if the embedded template is broken.
 pub fn page(material: &Material<'_>) -> Result<String, ReportError> {
-    let Material { run, controller, options, scene, .. } = material;
-    let view = View::first(scene);
+    let Material { run, controller, options, scene, view, .. } = material;
     let sources = Sources {
         document: &run.document,
         manifest: &run.manifest,
@@ -112,12 +122,12 @@ pub fn page(material: &Material<'_>) -> Result<String, ReportError> {
     let specifics = Specifics {
         leads: TO_TARGETS,
         has_upper: false,
-        embedded: embed(scene, &view, || steering(material)),
+        embedded: embed(scene, view, || steering(material)),
         model: formulas::model(material),
         sizes: tables::sizes(material),
         method: METHOD,
     };
-    rendered(scene, &view, &sources, specifics)
+    rendered(scene, view, &sources, specifics)
 }
 
 /// The same for a run whose actions are inputs.
@@ -125,8 +135,7 @@ pub fn page(material: &Material<'_>) -> Result<String, ReportError> {
 /// # Errors
 /// [`ReportError`] if the embedded template is broken.
 pub fn input_page(material: &InputMaterial<'_>) -> Result<String, ReportError> {
-    let InputMaterial { run, controller, options, scene, .. } = material;
-    let view = View::first(scene);
+    let InputMaterial { run, controller, options, scene, view, .. } = material;
     let sources = Sources {
         document: &run.document,
         manifest: &run.manifest,
@@ -137,12 +146,12 @@ pub fn input_page(material: &InputMaterial<'_>) -> Result<String, ReportError> {
     let specifics = Specifics {
         leads: TO_IMAGES,
         has_upper: true,
-        embedded: embed(scene, &view, || inputs(material)),
+        embedded: embed(scene, view, || inputs(material)),
         model: input_formulas::model(material),
         sizes: tables::input_sizes(material),
         method: "",
     };
-    rendered(scene, &view, &sources, specifics)
+    rendered(scene, view, &sources, specifics)
 }
 
 fn rendered(
@@ -163,18 +172,21 @@ fn rendered(
         [] => String::new(),
         list => format!("<p>Left out of this page for its size: {}.</p>\n", escape(&list.join("; "))),
     };
+    let map = heat_map(scene, view).inline();
     let page = Page {
         name: escape(scene.name),
         description: escape(document.description().unwrap_or_default()),
         mode: escape(&manifest.mode),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         style: format!("{PLOT_STYLE}{STYLE}"),
+        verdict: words::verdict(&promise),
         guarantee: words::guarantee(&promise),
         warnings: words::warnings(manifest),
-        map: heat_map(scene, view).inline(),
-        named_key: if scene.named.is_empty() { "" } else { NAMED_KEY },
+        legend: legend(scene, &map, specifics.leads),
+        map,
         value_name: scene.value_name().to_owned(),
-        leads: specifics.leads.to_owned(),
+        wanted_name: scene.wanted_name,
+        scale: if scene.scale.from > 0.0 || scene.scale.to < 1.0 { FITTED } else { "" },
         about_runs: words::about_runs(scene),
         facts: picked_cell(scene),
         section: section(scene, view).inline(),

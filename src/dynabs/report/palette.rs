@@ -1,5 +1,7 @@
 //! The colours of values: viridis, perceptually uniform and safe for the colour-blind.
 
+use super::numbers::{compact, round_step, short, ticks};
+
 /// Viridis (S. van der Walt, N. Smith; CC0) at sixteen equally spaced places.
 const STOPS: [[u8; 3]; 16] = [
     [0x44, 0x01, 0x54],
@@ -26,9 +28,44 @@ pub(super) const LEVELS: usize = 64;
 /// From this level on, dark ink is easier to see than light.
 pub(super) const FIRST_LIGHT_LEVEL: usize = 40;
 
-/// The level of a probability, `0 .. LEVELS`.
-pub(super) fn level(value: f32) -> usize {
-    ((f64::from(value) * LEVELS as f64) as usize).min(LEVELS - 1)
+/// The values that colours tell apart: from the darkest to the lightest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ColourScale {
+    pub(super) from: f64,
+    pub(super) to: f64,
+}
+
+impl ColourScale {
+    /// Values that differ little have all colours between them, any others those from 0 to 1.
+    pub(super) fn fitted(values: impl Iterator<Item = f32>) -> Self {
+        let (least, most) = values
+            .map(f64::from)
+            .fold((1.0, 0.0), |(least, most): (f64, f64), value| (least.min(value), most.max(value)));
+        if least > most || most - least >= 0.5 {
+            return Self { from: 0.0, to: 1.0 };
+        }
+        let step = round_step((most - least).max(0.01) / 4.0);
+        let to = compact(((most / step - 1e-9).ceil() * step).clamp(step, 1.0));
+        let from = compact(((least / step + 1e-9).floor() * step).min(to - step).max(0.0));
+        Self { from, to }
+    }
+
+    /// The level of a value, `0 .. LEVELS`.
+    pub(super) fn level(&self, value: f32) -> usize {
+        let share = (f64::from(value) - self.from) / (self.to - self.from);
+        ((share * LEVELS as f64).max(0.0) as usize).min(LEVELS - 1)
+    }
+
+    /// What stands beside a bar of all colours, with the places: the ends, and round numbers between them.
+    pub(super) fn labels(&self) -> Vec<(f64, String)> {
+        let Self { from, to } = *self;
+        let share = |x: f64| (x - from) / (to - from);
+        let mut labels = vec![(0.0, if from > 0.0 { format!("≤ {}", short(from)) } else { short(from) })];
+        let inner = ticks(from, to, 5.0).into_iter().filter(|&x| (0.05..=0.95).contains(&share(x)));
+        labels.extend(inner.map(|x| (share(x), short(x))));
+        labels.push((1.0, if to < 1.0 { format!("≥ {}", short(to)) } else { short(to) }));
+        labels
+    }
 }
 
 /// The colour of a level, as `#rrggbb`.
@@ -48,9 +85,27 @@ mod tests {
     use super::*;
 
     #[test]
+    fn values_that_differ_little_differ_in_colour() {
+        let fitted = |values: &[f32]| {
+            let scale = ColourScale::fitted(values.iter().copied());
+            (scale.from, scale.to)
+        };
+        assert_eq!(fitted(&[0.0, 0.7]), (0.0, 1.0));
+        assert_eq!(fitted(&[]), (0.0, 1.0));
+        assert_eq!(fitted(&[0.912, 0.988]), (0.9, 1.0));
+        assert_eq!(fitted(&[1.0]), (0.995, 1.0));
+        assert_eq!(fitted(&[0.0]), (0.0, 0.005));
+        let scale = ColourScale { from: 0.9, to: 0.98 };
+        assert_eq!([0.2, 0.9, 0.99].map(|value| scale.level(value)), [0, 0, LEVELS - 1]);
+        let labels: Vec<_> = scale.labels().into_iter().map(|(_, text)| text).collect();
+        assert_eq!(labels, ["≤ 0.9", "0.92", "0.94", "0.96", "≥ 0.98"]);
+    }
+
+    #[test]
     fn from_dark_to_light() {
         assert_eq!((colour(0), colour(LEVELS - 1)), ("#440154".into(), "#fde725".into()));
-        assert_eq!((level(0.0), level(0.5), level(1.0)), (0, LEVELS / 2, LEVELS - 1));
+        let whole = ColourScale { from: 0.0, to: 1.0 };
+        assert_eq!([0.0, 0.5, 1.0].map(|value| whole.level(value)), [0, LEVELS / 2, LEVELS - 1]);
         let light = |level| {
             let text = colour(level);
             let part = |i: usize| f64::from(u8::from_str_radix(&text[i..i + 2], 16).unwrap());

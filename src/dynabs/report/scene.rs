@@ -1,10 +1,12 @@
 //! What plots show of a closed loop, whatever its actions are.
 
 use super::outlines::Outlined;
+use super::palette::ColourScale;
 use super::values::StepValues;
 use crate::controller::{Controller, Tally, Trajectory};
 use crate::partition::{CellId, CellKind, Grid, GridAxis, Region};
-use crate::task::{Memory, Safety, Standing};
+use crate::problem::Objective;
+use crate::task::{Aim, Memory, Safety, Standing};
 use imdp::numeric::to_f64;
 
 /// The most columns of a time axis of an unbounded task.
@@ -18,7 +20,11 @@ pub(super) struct Scene<'a> {
     pub(super) names: Vec<String>,
     /// Their units.
     pub(super) units: Vec<Option<String>>,
+    /// Their lengths, where they are periodic.
+    pub(super) periods: Vec<Option<f64>>,
     pub(super) wanted: &'a [Region],
+    /// What these are.
+    pub(super) wanted_name: &'static str,
     pub(super) unsafe_: &'a [Region],
     /// The regions that the task names.
     pub(super) named: Vec<Outlined>,
@@ -43,8 +49,11 @@ pub(super) struct Scene<'a> {
     /// The bound at the start.
     pub(super) bound: f64,
     pub(super) tally: Tally,
+    /// How many of them were to be drawn.
+    pub(super) wanted_runs: u64,
     pub(super) trajectories: Vec<Trajectory>,
     pub(super) actions: Box<dyn SceneActions + 'a>,
+    pub(super) scale: ColourScale,
     pub(super) faces: Vec<Vec<f64>>,
 }
 
@@ -86,8 +95,16 @@ pub(super) trait SceneActions {
     /// An action in words.
     fn words(&self, action: u32) -> String;
 
+    /// Whether where an action leads depends on the cell.
+    fn leads_by_cell(&self) -> bool;
+
     /// How many actions are enabled in a cell.
     fn enabled(&self, cell: CellId) -> usize;
+}
+
+/// What the wanted region of a task is.
+pub(super) fn wanted_name(objective: &Objective) -> &'static str {
+    if objective.aim() == Aim::Stay { "safe region" } else { "goal" }
 }
 
 /// The faces of the cells in every dimension.
@@ -136,6 +153,21 @@ impl Scene<'_> {
     /// What runs remember on arrival: nothing yet at the start, then each memory if there are several.
     pub(super) fn before(&self) -> impl Iterator<Item = Option<Memory>> + use<> {
         std::iter::once(None).chain((0..self.memories.len() as Memory).map(Some))
+    }
+
+    /// All cells at the start, then with each memory before.
+    pub(super) fn arrivals(&self) -> impl Iterator<Item = (Option<Memory>, CellId)> + use<> {
+        let cells = self.grid.num_cells();
+        self.before().flat_map(move |before| (0..cells).map(move |cell| (before, CellId(cell))))
+    }
+
+    /// The actions of a cell that are taken at some step of those whose values are kept.
+    pub(super) fn shown_entries(&self, before: Option<Memory>, cell: CellId) -> Vec<(u64, u32)> {
+        let mut entries = self.actions.entries(before, cell);
+        let least = self.horizon.map_or(1, |horizon| horizon.saturating_sub(self.last_step() as u64)).max(1);
+        let unseen = entries.partition_point(|(left, _)| *left <= least).saturating_sub(1);
+        entries.drain(..unseen);
+        entries
     }
 
     /// What values are called.

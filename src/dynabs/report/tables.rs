@@ -212,5 +212,6 @@ pub(super) fn provenance(manifest: &Manifest) -> String {
             format!("<p>Changed in the model file: <code>{}</code></p>\n", escape(&manifest.set.join(" ")))
         }
     };
-    set + &table("Files", &["file", "", "SHA-256"], &rows)
+    let files = table("Files", &["file", "", "SHA-256"], &rows);
+    format!("{set}<details><summary>{} files, and their SHA-256</summary>\n{files}</details>\n", rows.len())
 }

@@ -66,6 +66,11 @@ impl StepValues {
         if memories <= 1 { vec![] } else { (0..memories).map(of_memory).collect() }
     }
 
+    /// Forgets the values after a step.
+    pub(super) fn forget_after(&mut self, step: usize) {
+        self.by_step.truncate(step + 1);
+    }
+
     /// The last step that is kept.
     pub(super) fn last_step(&self) -> usize {
         self.by_step.len() - 1

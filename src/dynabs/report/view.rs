@@ -29,16 +29,24 @@ pub(super) struct View {
 }
 
 impl View {
-    /// What is shown at first, and on paper: the plane through the start, or the only dimension over time.
-    pub(super) fn first(scene: &Scene<'_>) -> Self {
-        let slice = match scene.start_cell {
-            Some(cell) => scene.grid.coordinates(cell),
-            None => vec![0; scene.dimension()],
+    /// Whether both axes have the same scale: they have the same unit, or none and square cells, and no side is much longer.
+    pub(super) fn is_equal(&self, scene: &Scene<'_>) -> bool {
+        let Axis::State(across) = self.across else { return false };
+        let length = |j: usize| scene.range(j).1 - scene.range(j).0;
+        let width = |j: usize| length(j) / (scene.faces()[j].len() - 1) as f64;
+        let alike = match (&scene.units[across], &scene.units[self.up]) {
+            (None, None) => (width(across) / width(self.up) - 1.0).abs() < 1e-9,
+            (one, other) => one == other,
         };
-        match scene.dimension() {
-            1 => Self { across: Axis::Time, up: 0, slice, step: 0 },
-            _ => Self { across: Axis::State(0), up: 1, slice, step: 0 },
-        }
+        alike && (0.25..=4.0).contains(&(length(across) / length(self.up)))
+    }
+
+    /// Whether a state lies in the slice: in the cells that the plane goes through.
+    pub(super) fn is_in_slice(&self, scene: &Scene<'_>, state: &[f64]) -> bool {
+        self.fixed().all(|j| {
+            let (faces, i) = (&scene.faces()[j], self.slice[j] as usize);
+            faces[i] <= state[j] && state[j] < faces[i + 1]
+        })
     }
 
     /// The cell at column `i` and row `j`, and the step that it is looked at.

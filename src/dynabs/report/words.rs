@@ -35,32 +35,40 @@ pub(super) fn guarantee(promise: &Promise<'_>) -> String {
                 .map_or(String::new(), |caveat| format!("<p><strong>{}</strong></p>\n", escape(&caveat)));
             format!(
                 "<div class=\"promise\"><p class=\"figures\"><strong>≥ {bound}</strong> success, with confidence \
-                 <strong>{confidence}</strong></p>\n{caveat}{paragraphs}{}</div>\n{}",
-                threshold(promise),
+                 <strong>{confidence}</strong></p>\n{caveat}{paragraphs}</div>\n{}",
                 conditions(promise, samples)
             )
         }
         Evidence::Known { .. } => format!(
-            "<div class=\"promise\"><p class=\"figures\"><strong>≥ {bound}</strong> success</p>\n{paragraphs}{}</div>\n",
-            threshold(promise)
+            "<div class=\"promise\"><p class=\"figures\"><strong>≥ {bound}</strong> success</p>\n{paragraphs}</div>\n"
         ),
         Evidence::Published { .. } => format!(
             "<div class=\"promise none\"><p class=\"figures\"><strong>No guarantee</strong></p>\n{paragraphs}<p>Every \
              interval by itself has a confidence level, but nothing makes them hold together; cells that no sample met \
-             count as impossible. Compile with mode <code>pac</code> for a guarantee.</p>{}</div>\n",
-            threshold(promise)
+             count as impossible. Compile with mode <code>pac</code> for a guarantee.</p></div>\n"
         ),
     }
 }
 
-fn threshold(promise: &Promise<'_>) -> String {
-    let Some((threshold, satisfied)) = promise.threshold else { return String::new() };
-    let verdict = match satisfied {
-        Some(true) => "it is met",
-        Some(false) => "it is <strong>not</strong> met",
-        None => "it is undecided",
+/// The answer in a line: whether what was asked for is promised.
+pub(super) fn verdict(promise: &Promise<'_>) -> String {
+    let (class, word, asked) = match promise.threshold {
+        None => ("open", "no threshold", "nothing was asked for; ".to_owned()),
+        Some((threshold, satisfied)) => {
+            let (class, word) = match satisfied {
+                Some(true) => ("true", "true"),
+                Some(false) => ("false", "false"),
+                None => ("open", "undecided"),
+            };
+            (class, word, format!("asked for ≥ {}, ", short(threshold)))
+        }
     };
-    format!("<p>Asked for was at least {}: {verdict}.</p>\n", short(threshold))
+    let bound = lower_bound_text(promise.bound);
+    let found = match promise.guarantee.evidence {
+        Evidence::Published { .. } => format!("computed {bound}, without any guarantee"),
+        _ => format!("promised ≥ {bound}"),
+    };
+    format!("<p class=\"verdict is-{class}\"><strong>{word}</strong> {asked}{found}</p>\n")
 }
 
 fn conditions(promise: &Promise<'_>, samples: &SampleEvidence) -> String {
@@ -76,9 +84,9 @@ fn conditions(promise: &Promise<'_>, samples: &SampleEvidence) -> String {
         .map(|condition| format!("<li>It needs that {}.</li>\n", escape(condition)))
         .collect();
     format!(
-        "<ul>\n<li>One event of probability at least 1 − β, with β = {}, over the {} samples covers all cells, horizons \
+        "<details><summary>What this rests on</summary>\n<ul>\n<li>One event of probability at least 1 − β, with β = {}, over the {} samples covers all cells, horizons \
          and policies at once: the policy was chosen on the same samples, and that is fine.</li>\n<li>Covered are {}. \
-         Nothing else is{upper}.</li>\n{assumes}</ul>\n",
+         Nothing else is{upper}.</li>\n{assumes}</ul></details>\n",
         short(samples.beta),
         samples.number,
         escape(guarantee.covers())
@@ -112,7 +120,7 @@ pub(super) fn about_runs(scene: &Scene<'_>) -> String {
         }
     };
     format!(
-        "Lines are the first {} simulated runs from x = {} ({chosen}), seed {}; those that failed are dashed.{between}{memory}",
+        "Lines are the first {} simulated runs from x = {} ({chosen}), seed {}.{between}{memory}",
         scene.trajectories.len(),
         tuple(&scene.start),
         scene.seed

@@ -3,10 +3,10 @@
 use super::pruning::PruningReport;
 use super::row_states::RowStatesReport;
 use crate::Warning;
-use crate::abstraction::Abstraction;
+use crate::abstraction::{Abstraction, Plan};
 use crate::guarantee::Guarantee;
 use crate::model_file::Document;
-use crate::problem::{Problem, SampledNoise};
+use crate::problem::{Problem, SampledNoise, Stabilizer, TargetId};
 use crate::system::Variable;
 use imdp::formats::prism::RAISED_LOWER_BOUND;
 use imdp::formats::sha256_hex;
@@ -72,8 +72,11 @@ pub struct Manifest {
     pub initial_state: Option<Vec<f64>>,
     /// Its state in the model.
     pub initial_model_state: Option<StateId>,
-    /// The lower layer, if there is one.
+    /// The lower layer, if it is linear feedback.
     pub stabilizer: Option<LayerReport>,
+    /// The plan that is followed, if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan: Option<PlanReport>,
     /// The model of the files `rows.*`, if they are written.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub row_states: Option<RowStatesReport>,
@@ -127,6 +130,15 @@ pub struct LayerReport {
     pub riccati_residual: Option<f64>,
 }
 
+/// A plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PlanReport {
+    /// From how many cells it says where to go.
+    pub cells: u64,
+    /// How many different targets it has.
+    pub targets: u64,
+}
+
 /// A file that was read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InputFile {
@@ -178,6 +190,7 @@ impl Manifest {
             initial_state: problem.initial_state().map(<[f64]>::to_vec),
             initial_model_state: problem.initial_cell().map(|cell| abstraction.state_of_cell[cell.index()]),
             stabilizer: LayerReport::new(problem),
+            plan: abstraction.plan.as_ref().map(PlanReport::new),
             row_states: None,
             pruning: None,
             prism_lower_bound: RAISED_LOWER_BOUND,
@@ -222,6 +235,7 @@ impl Manifest {
             initial_state: None,
             initial_model_state: None,
             stabilizer: None,
+            plan: None,
             row_states: None,
             pruning: None,
             prism_lower_bound: RAISED_LOWER_BOUND,
@@ -245,7 +259,7 @@ impl Manifest {
 
 impl LayerReport {
     fn new(problem: &Problem) -> Option<Self> {
-        let stabilizer = problem.stabilizer()?;
+        let stabilizer = problem.stabilizer().and_then(Stabilizer::feedback)?;
         let gain = stabilizer.layers.gain().to_f64();
         Some(Self {
             gain: gain.row_iter().map(|row| row.iter().copied().collect()).collect(),
@@ -257,6 +271,16 @@ impl LayerReport {
                 .collect(),
             riccati_residual: stabilizer.riccati_residual,
         })
+    }
+}
+
+impl PlanReport {
+    fn new(plan: &Plan) -> Self {
+        let mut targets: Vec<TargetId> = plan.headings().flatten().collect();
+        let cells = targets.len() as u64;
+        targets.sort_unstable();
+        targets.dedup();
+        Self { cells, targets: targets.len() as u64 }
     }
 }
 

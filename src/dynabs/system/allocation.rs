@@ -1,7 +1,7 @@
 //! Control allocation: how a demand is shared among more inputs than it takes.
 
 use super::rehearsal::Rehearsal;
-use super::{Demands, LinearSystem};
+use super::{Demands, LinearSystem, Shares};
 use crate::geometry::Polytope;
 use crate::linear_algebra::ExactMatrix;
 use imdp::numeric::{Rational, from_dyadic, to_f64};
@@ -15,8 +15,8 @@ const WEIGHT_BITS: u32 = 8;
 ///
 /// `M = W Bᵀ (B W Bᵀ)⁻¹` with a diagonal `W`, and `ū` the center of the bounding box of `U`. With the squares of the half
 /// widths `w` of `U` for `W`, inputs are compared by the share of their range that they use, and their units do
-/// not matter. From there `W` and `ū` are changed as long as more [`Demands`] can be met: an input that is of no use is
-/// left alone.
+/// not matter. From there `W` and `ū` are changed by [`Shares`], as long as more [`Demands`] can be met or more is reached: an input
+/// that is of no use is left alone.
 ///
 /// For a square `B` all this is `B⁻¹`.
 #[derive(Clone, Debug)]
@@ -29,33 +29,48 @@ pub(super) struct ControlAllocation {
 
 impl ControlAllocation {
     /// The allocation of `system` for inputs in `input`; `None` unless `B` has full row rank.
-    pub(super) fn new(system: &LinearSystem, input: &Polytope, demands: &Demands) -> Option<Self> {
+    ///
+    /// Where there is nothing to share, or no range to do so by, shares do not matter.
+    pub(super) fn new(system: &LinearSystem, input: &Polytope, shares: Option<&Shares>) -> Option<Self> {
         let b = system.b();
         let p = b.columns();
         let about_zero = |right_inverse| Self { right_inverse, center: ExactMatrix::zeros(p, 1) };
         if b.rows() == p {
             return b.inverse().map(about_zero);
         }
-        Self::weighted(system, input, demands).or_else(|| b.right_inverse().map(about_zero))
+        let weighted = shares.and_then(|shares| Self::weighted(system, input, shares));
+        weighted.or_else(|| b.right_inverse().map(about_zero))
     }
 
-    fn weighted(system: &LinearSystem, input: &Polytope, demands: &Demands) -> Option<Self> {
-        let two = Rational::one() + Rational::one();
-        let bounds = input.bounding_box()?;
-        let half: Vec<Rational> = bounds.iter().map(|(lower, upper)| (upper - lower) / &two).collect();
-        let middle: Vec<Rational> = bounds.iter().map(|(lower, upper)| (upper + lower) / &two).collect();
+    /// The shares of inputs in `input` with which most demands are met; `None` if there is nothing to share.
+    pub(super) fn rehearsed(system: &LinearSystem, input: &Polytope, demands: &Demands) -> Option<Shares> {
+        if system.b().rows() == system.b().columns() {
+            return None;
+        }
+        let (middle, half) = middle_and_half(input)?;
         let doubles = |values: &[Rational]| values.iter().map(to_f64).collect::<Vec<_>>();
+        Some(Rehearsal::new(system, (&doubles(&middle), &doubles(&half)), demands).best())
+    }
+
+    fn weighted(system: &LinearSystem, input: &Polytope, shares: &Shares) -> Option<Self> {
+        let (middle, half) = middle_and_half(input)?;
         let b = system.b();
-        let (shares, shifts) = Rehearsal::new(system, (&doubles(&middle), &doubles(&half)), demands).best();
         let exact = |value: f64| from_dyadic(cut(value));
         let weight = |(half, &share): (&Rational, &f64)| Some(half * half * exact(share)?);
-        let weights: Vec<Rational> = half.iter().zip(&shares).map(weight).collect::<Option<_>>()?;
-        let shifted = |i: usize| Some(&middle[i] + &half[i] * exact(shifts[i])?);
+        let weights: Vec<Rational> = half.iter().zip(&shares.weights).map(weight).collect::<Option<_>>()?;
+        let shifted = |i: usize| Some(&middle[i] + &half[i] * exact(shares.shifts[i])?);
         let center: Vec<Rational> = (0..b.columns()).map(shifted).collect::<Option<_>>()?;
         let weighted = ExactMatrix::from_fn(b.columns(), b.rows(), |i, j| &weights[i] * b.get(j, i));
         let right_inverse = weighted.times(&b.times(&weighted).inverse()?);
         Some(Self { right_inverse, center: ExactMatrix::from_fn(b.columns(), 1, |i, _| center[i].clone()) })
     }
+}
+
+/// The middle of the bounding box of `U`, and half its widths.
+fn middle_and_half(input: &Polytope) -> Option<(Vec<Rational>, Vec<Rational>)> {
+    let two = Rational::one() + Rational::one();
+    let bounds = input.bounding_box()?;
+    Some(bounds.iter().map(|(lower, upper)| ((upper + lower) / &two, (upper - lower) / &two)).unzip())
 }
 
 /// `M` of [`ControlAllocation`] in doubles and before it is improved, for `B` (`n×p`) and half widths of inputs: enough to compare
@@ -94,7 +109,9 @@ mod tests {
         let system = LinearSystem::new(exact(n, n, a), exact(n, p, b), ExactMatrix::zeros(n, 1));
         let holds = holds.iter().map(|x| (x.to_vec(), 1.0)).collect();
         let demands = Demands { cell: vec![0.1; n], holds };
-        let found = ControlAllocation::new(&system, &input(lower, upper), &demands).unwrap();
+        let input = input(lower, upper);
+        let shares = ControlAllocation::rehearsed(&system, &input, &demands);
+        let found = ControlAllocation::new(&system, &input, shares.as_ref()).unwrap();
         assert_eq!(system.b().times(&found.right_inverse), ExactMatrix::identity(n));
         found
     }

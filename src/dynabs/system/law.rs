@@ -1,7 +1,7 @@
 //! The affine feedback law that steers a state to a target, and how exactly it does so.
 
 use super::allocation::ControlAllocation;
-use super::{Demands, LinearSystem, TwoLayer};
+use super::{Demands, LinearSystem, Shares, TwoLayer};
 use crate::geometry::Polytope;
 use crate::linear_algebra::ExactMatrix;
 use imdp::numeric::{Rational, UNIT_ROUNDOFF, from_decimal, rounding_factor, to_f64, to_f64_up};
@@ -57,8 +57,8 @@ pub struct Extent {
 }
 
 impl AffineMap {
-    fn steering(system: &LinearSystem, input: &Polytope, demands: &Demands) -> Option<Self> {
-        let ControlAllocation { right_inverse, center } = ControlAllocation::new(system, input, demands)?;
+    fn steering(system: &LinearSystem, input: &Polytope, shares: Option<&Shares>) -> Option<Self> {
+        let ControlAllocation { right_inverse, center } = ControlAllocation::new(system, input, shares)?;
         let drift = system.q().plus(&system.b().times(&center));
         Some(Self {
             state: right_inverse.times(system.a()).negated(),
@@ -100,10 +100,36 @@ impl FeedbackLaw {
         two_layer: Option<&TwoLayer>,
         demands: &Demands,
     ) -> Option<Self> {
-        let (input, abstract_input) = match two_layer {
-            None => (AffineMap::steering(system, input, demands)?, None),
+        let shares = Self::shares(system, input, two_layer, demands);
+        Self::with_shares(system, input, two_layer, shares.as_ref())
+    }
+
+    /// How inputs share what is to be done if that is made for `demands`; `None` if there is nothing to share.
+    pub fn shares(
+        system: &LinearSystem,
+        input: &Polytope,
+        two_layer: Option<&TwoLayer>,
+        demands: &Demands,
+    ) -> Option<Shares> {
+        match two_layer {
+            None => ControlAllocation::rehearsed(system, input, demands),
             Some(layers) => {
-                let upper = AffineMap::steering(layers.closed_loop(), layers.abstract_input(), demands)?;
+                ControlAllocation::rehearsed(layers.closed_loop(), layers.abstract_input(), demands)
+            }
+        }
+    }
+
+    /// The law with which inputs share what is to be done as they are told; `None` unless `B` has full row rank.
+    pub fn with_shares(
+        system: &LinearSystem,
+        input: &Polytope,
+        two_layer: Option<&TwoLayer>,
+        shares: Option<&Shares>,
+    ) -> Option<Self> {
+        let (input, abstract_input) = match two_layer {
+            None => (AffineMap::steering(system, input, shares)?, None),
+            Some(layers) => {
+                let upper = AffineMap::steering(layers.closed_loop(), layers.abstract_input(), shares)?;
                 let input = AffineMap {
                     target: upper.target.clone(),
                     state: upper.state.minus(layers.gain()),
@@ -170,6 +196,16 @@ impl FeedbackLaw {
             constraints.extend(constraints_of(map, set, extent));
         }
         constraints
+    }
+
+    /// The conditions `G′ M (d − d̄) ≤ g′` on how far off a target `d` is from a planned one `d̄`: `u′ = M (d − d̄)` is what is
+    /// added to the input that steers to `d̄`. They are conditions `α·(d − d̄) ≤ β`, one for each half-space of `U′`.
+    ///
+    /// Nothing is proven by them: `u ∈ U` is what [`constraints`](Self::constraints) are for.
+    pub fn deviations(&self, abstract_input: &Polytope) -> Vec<(Vec<f64>, f64)> {
+        let normals = abstract_input.normals().times(&self.input.target);
+        let row = |i| (0..normals.columns()).map(|j| to_f64(normals.get(i, j))).collect();
+        abstract_input.offsets().iter().enumerate().map(|(i, offset)| (row(i), to_f64(offset))).collect()
     }
 }
 

@@ -19,6 +19,7 @@ mod partial_image;
 mod rehearsal;
 mod riccati;
 mod sampling;
+mod shares;
 mod two_layer;
 
 pub(crate) use allocation::rough_right_inverse;
@@ -35,4 +36,5 @@ pub use mode::{Discretisation, Mode, Variable};
 pub use partial_image::PartialImage;
 pub use riccati::{Lqr, RiccatiError, spectral_radius};
 pub use sampling::{SampledLinear, SamplingError, TaylorError, TaylorStep};
+pub use shares::Shares;
 pub use two_layer::TwoLayer;

@@ -1,16 +1,8 @@
 //! Trying a law on states that it may have to keep, to find a better one.
 
-use super::{Demands, LinearSystem};
+use super::{Demands, LinearSystem, Shares};
 use nalgebra::{DMatrix, DVector};
 
-/// Rounds in which every input is thought over; mostly two change anything.
-const ROUNDS: usize = 4;
-/// What the weight of an input is multiplied by: 0 leaves it where it is.
-const FACTORS: [f64; 5] = [0.0, 0.25, 0.5, 2.0, 4.0];
-/// Where in its range, from −1 to 1, an input may be when nothing is demanded.
-const SHIFTS: [f64; 9] = [-1.0, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0];
-/// A smaller gain than this is not worth a law that is harder to read.
-const WORTH_IT: f64 = 1.02;
 /// What rounding may change; more than that is a difference.
 const TOLERANCE: f64 = 1e-9;
 
@@ -40,41 +32,13 @@ impl Rehearsal {
         }
     }
 
-    /// Weights and shifts of the inputs: equal ones about the middle, unless others clearly meet more.
-    pub(super) fn best(&self) -> (Vec<f64>, Vec<f64>) {
-        let p = self.b.ncols();
-        let plain = (vec![1.0; p], vec![0.0; p]);
-        let first = self.worth(&plain);
-        let (mut best, mut most) = (plain.clone(), first);
-        for _ in 0..ROUNDS {
-            let before = most;
-            for i in 0..p {
-                let of_weights = FACTORS.iter().map(|factor| {
-                    let mut other = best.clone();
-                    other.0[i] *= factor;
-                    other
-                });
-                let of_shifts = SHIFTS.iter().map(|&shift| {
-                    let mut other = best.clone();
-                    other.1[i] = shift;
-                    other
-                });
-                for other in of_weights.chain(of_shifts).collect::<Vec<_>>() {
-                    let worth = self.worth(&other);
-                    if worth > most + TOLERANCE {
-                        (best, most) = (other, worth);
-                    }
-                }
-            }
-            if most <= before + TOLERANCE {
-                break;
-            }
-        }
-        if most > WORTH_IT * first.max(0.0) { best } else { plain }
+    /// Equal shares about the middle, unless others clearly meet more.
+    pub(super) fn best(&self) -> Shares {
+        Shares::even(self.b.ncols()).improved(|shares| Some(self.worth(shares)))
     }
 
     /// The weight of all demands that are met, less a little for what is missing at the others: the way uphill.
-    fn worth(&self, (weights, shifts): &(Vec<f64>, Vec<f64>)) -> f64 {
+    fn worth(&self, Shares { weights, shifts }: &Shares) -> f64 {
         let (n, p) = self.b.shape();
         let weighted = DMatrix::from_fn(p, n, |i, j| weights[i] * self.b[(j, i)]);
         let Some(inverse) = (&self.b * &weighted).try_inverse() else { return f64::NEG_INFINITY };

@@ -109,6 +109,7 @@ pub(super) fn prove(
 
 fn evidence(samples: &StepSamples) -> SampleEvidence {
     SampleEvidence {
+        follows_plan: false,
         number: samples.noise.samples.len() as u64,
         beta: to_f64(&samples.beta),
         sweep: samples.sweep,

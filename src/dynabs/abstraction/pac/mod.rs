@@ -67,6 +67,10 @@
 //! With `p` as above, `l ≤ P(η ∈ C, ξ in the room) ≤ p ≤ u`, for goal cells together the sum of the `l`. To what is moved to
 //! `failed`, at most `ε` or `ε` and the bound of *lost*, comes what meets something in between, which leaves the room: `κ`. ∎
 //!
+//! **A plan.** Where a plan is followed, an action is enabled in a cell only if it is near the plan. *Lost* are still the cells in
+//! which the law has no action at all, before any plan, so events are the same with every plan and every `U′`, and rows are those of
+//! targets, which all hold together: leaving actions out is a choice of policy, which may depend on samples. ∎
+//!
 //! A lower bound of `P(η ∈ C)` itself would not do: all of that mass could be noise that meets an obstacle on its way.
 //!
 //! Moving mass to `failed` can only lower the probability of a formula that is false from `failed` on, so
@@ -95,7 +99,7 @@ use super::stencil::{Ground, Special, Stencil, StencilRows};
 use super::targets::Targets;
 use super::windows::WINDOWS;
 use crate::guarantee::SampleEvidence;
-use crate::problem::{Problem, SampledNoise, TargetId};
+use crate::problem::{Problem, SampledNoise, Stabilizer, TargetId};
 pub(super) use bounds::DIGITS;
 use bounds::{BoundTable, Interval};
 pub(super) use ends::TaskEnds;
@@ -259,6 +263,7 @@ impl<'a> PacRows<'a> {
             budget: prepared.budget.allocations().to_vec(),
             unseen_mass: prepared.unseen.first().copied().unwrap_or(1.0),
             components: None,
+            follows_plan: self.problem.stabilizer().and_then(Stabilizer::tracking).is_some(),
         }
     }
 

@@ -4,7 +4,7 @@ use super::memory_json::memory_tables;
 use crate::controller::Controller;
 use crate::controller::law::Law;
 use crate::partition::{CellId, CellKind};
-use crate::problem::Problem;
+use crate::problem::{Problem, Stabilizer};
 use crate::task::Memory;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -38,11 +38,7 @@ pub fn write_json(controller: &Controller, problem: &Problem, mut out: impl Writ
                 "G": matrix(&problem.step_input().normals().to_f64()),
                 "g": problem.step_input().offsets().iter().map(imdp::numeric::to_f64).collect::<Vec<_>>(),
             },
-            "stabilizer": problem.stabilizer().map(|stabilizer| json!({
-                "about": "u = -K (x - about) + u', on the grouped system; contained in the law below",
-                "K": matrix(&stabilizer.layers.gain().to_f64()),
-                "at": matrix(&stabilizer.layers.about().to_f64().transpose())[0],
-            })),
+            "stabilizer": problem.stabilizer().map(stabilizer),
         },
         "law": law(controller),
         "grid": {
@@ -68,6 +64,23 @@ pub fn write_json(controller: &Controller, problem: &Problem, mut out: impl Writ
     }
     serde_json::to_writer(&mut out, &value)?;
     writeln!(out)
+}
+
+/// What is done without being asked.
+fn stabilizer(stabilizer: &Stabilizer) -> Value {
+    match stabilizer {
+        Stabilizer::Feedback(feedback) => json!({
+            "about": "u = -K (x - about) + u', on the grouped system; contained in the law below",
+            "K": matrix(&feedback.layers.gain().to_f64()),
+            "at": matrix(&feedback.layers.about().to_f64().transpose())[0],
+        }),
+        Stabilizer::Tracking(tracking) => json!({
+            "about": "u = u_plan(x) + u' with u' in U' = {u : G u <= g}, on the grouped system; contained in the law below, \
+                      whose targets are near those of the plan",
+            "G": matrix(&tracking.abstract_input().normals().to_f64()),
+            "g": tracking.abstract_input().offsets().iter().map(imdp::numeric::to_f64).collect::<Vec<_>>(),
+        }),
+    }
 }
 
 /// How an action and a state give inputs.

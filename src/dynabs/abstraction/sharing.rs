@@ -1,0 +1,58 @@
+//! How inputs share what is to be done where there are more of them than it takes: so that most is expected to be reached.
+//!
+//! Rehearsals ([`FeedbackLaw::shares`]) ask whether cells can be kept, which says little about ways that lead against the drift.
+//! Where there is time for it, shares are compared by what they let expect: the probability of success with nominal noise
+//! ([`super::nominal`]). Samples have no part in it.
+
+use super::nominal::Nominal;
+use super::steering::Steering;
+use crate::partition::{CellId, CellKind};
+use crate::problem::Problem;
+use crate::system::{FeedbackLaw, Shares};
+
+/// Steps beyond this one are not looked at.
+const MOST_STEPS: u64 = 100;
+
+/// How many numbers may be looked at, in all comparisons,
+const MOST_WORK: u64 = 50_000_000;
+
+/// of which there must be so many at least to begin with them.
+const LEAST_COMPARISONS: u64 = 50;
+
+/// Where so much is expected by now, nothing better is looked for.
+const ENOUGH: f64 = 0.95;
+
+/// What all cells count beside that of the initial state: they show the way to it.
+const OF_ALL: f64 = 0.01;
+
+/// Shares with which more is expected to be reached, beginning with `shares`.
+pub(super) fn better(
+    problem: &Problem,
+    shares: Shares,
+    law: impl Fn(&Shares) -> Option<FeedbackLaw>,
+) -> Shares {
+    let ordinary = problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
+    let cells: Vec<CellId> = ordinary.map(|(cell, _)| cell).collect();
+    let Some(targets) = law(&shares).map(|law| Steering::of_law(problem, law).targets) else { return shares };
+    let nominal = Nominal::new(problem, &targets, 1.0, MOST_STEPS);
+    let per_step =
+        u64::from(problem.grid().num_cells()).saturating_mul(problem.grid().dimension() as u64 + 2);
+    let work_of_values = per_step.saturating_mul(nominal.steps);
+    if work_of_values.saturating_mul(LEAST_COMPARISONS) > MOST_WORK {
+        return shares;
+    }
+    let mut left = MOST_WORK;
+    shares.improved(|shares| {
+        let Some(law) = law(shares) else { return Some(f64::NEG_INFINITY) };
+        let actions = Steering::of_law(problem, law).enabled(problem, &cells, &());
+        let work = work_of_values + nominal.steps.saturating_mul(actions.ranges.len() as u64);
+        left = left.checked_sub(work)?;
+        let values = nominal.values(&cells, &actions, &());
+        let mean = cells.iter().map(|cell| values[cell.index()]).sum::<f64>() / cells.len().max(1) as f64;
+        let start = problem.initial_cell().map_or(mean, |cell| values[cell.index()]);
+        if start >= ENOUGH {
+            left = 0;
+        }
+        Some(start + OF_ALL * mean)
+    })
+}
