@@ -32,6 +32,13 @@ const MISTAKES: &[Mistake] = &[
     mistake(ONE_LAYER, "/dynamics/q=[1,2,3]", &["/dynamics/q", "3 numbers"]),
     mistake(ONE_LAYER, "/dynamics/group_steps=1", &["/dynamics/group_steps", "rank 1", "\"auto\" or 2"]),
     mistake(ONE_LAYER, "/dynamics/group_steps=0", &["/dynamics/group_steps", "positive integer or \"auto\""]),
+    mistake(ONE_LAYER, "/dynamics/B=[[],[]]", &["/dynamics/B", "no inputs", "leave B and /input out"]),
+    mistake(
+        ONE_LAYER,
+        "/task/goal=[{\"lower\":[50,0],\"upper\":[60,4]}]",
+        &["/task/goal", "outside of the partition", "Enlarge /partition"],
+    ),
+    mistake(ONE_LAYER, "/task/goal=[]", &["/task/goal", "an empty list", "\"type\": \"stay\""]),
     // Inputs.
     mistake(ONE_LAYER, "/input/lower=[61]", &["/input", "61", "60", "empty"]),
     mistake(ONE_LAYER, "/input={\"G\":[[1],[-1]],\"g\":[1,-2]}", &["/input", "no point in common"]),

@@ -1,7 +1,7 @@
 //! `dynabs-compile`: from a model file to PRISM files.
 
 use super::compile_inputs;
-use super::explain::is_explained_unasked;
+use super::explain::{HINT, is_low, is_soon_explained};
 use crate::choices::format_names;
 use crate::limits::LimitArguments;
 use crate::pruning::pruned;
@@ -228,7 +228,9 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
     if arguments.solve && !arguments.prune {
         let solving = Instant::now();
         let (answer, result) = solve(&problem, &abstraction, &bars)?;
-        if !arguments.quiet && !arguments.json && is_explained_unasked(&abstraction, &answer) {
+        if is_low(&answer) && !is_soon_explained(&abstraction) {
+            notes.push(HINT.to_owned());
+        } else if is_low(&answer) && !arguments.quiet && !arguments.json {
             let controller = Controller::new(&problem, &abstraction, &answer)?;
             explanation = Some(explain(&problem, &abstraction, &answer, &controller, &*bars));
         }

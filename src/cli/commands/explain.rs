@@ -51,9 +51,16 @@ pub fn run(arguments: &ExplainArguments) -> Result<ExitCode, CliError> {
 /// Larger models are explained when that is asked for.
 const QUICKLY_EXPLAINED: usize = 1_000_000;
 
-/// Whether a compilation that solves explains its answer too: it misses its threshold, or it is below one half; and an explanation,
-/// which solves the model with other intervals, takes no longer than a look at the result.
-pub(super) fn is_explained_unasked(abstraction: &Abstraction, answer: &Answer) -> bool {
-    let is_low = answer.verdict == Some(Verdict::Fails) || answer.lower < 0.5;
-    is_low && abstraction.model.rows().num_entries() <= QUICKLY_EXPLAINED
+/// What is said unasked where a larger model has a low bound.
+pub(super) const HINT: &str =
+    "the bound is low: `dynabs-check explain`, with the directory of this run, says why and what to change";
+
+/// Whether a bound is low: it misses its threshold, or it is below one half.
+pub(super) fn is_low(answer: &Answer) -> bool {
+    answer.verdict == Some(Verdict::Fails) || answer.lower < 0.5
+}
+
+/// Whether an explanation, which solves the model with other intervals, takes no longer than a look at the result.
+pub(super) fn is_soon_explained(abstraction: &Abstraction) -> bool {
+    abstraction.model.rows().num_entries() <= QUICKLY_EXPLAINED
 }

@@ -4,9 +4,8 @@ use super::base::{Base, Intervals};
 use super::enabling::Enabling;
 use super::pac::{PacRows, Preference, Worth};
 use super::states::{FAILED, REACHED, StateSpace, labels};
-use super::steering::Steering;
 use super::targets::Targets;
-use super::{AbstractionError, Footprint, Plan, known, reference};
+use super::{AbstractionError, Footprint, Plan, known, reference, sharing};
 use crate::Warning;
 use crate::guarantee::{Event, Evidence, Guarantee};
 use crate::partition::{CellId, CellKind, Grid};
@@ -74,7 +73,7 @@ impl Clock {
 pub fn compile(problem: &Problem, progress: &dyn Progress) -> Result<Abstraction, AbstractionError> {
     let mut clock = Clock { start: Instant::now(), phases: vec![] };
     let grid = problem.grid();
-    let steering = Steering::new(problem)?;
+    let steering = sharing::steering(problem)?;
     clock.lap("law");
 
     let footprint = Footprint::new(problem, &steering).with_rows(problem, &steering);
@@ -183,7 +182,7 @@ impl Abstraction {
         progress: &dyn Progress,
     ) -> Result<Self, AbstractionError> {
         let mut clock = Clock { start: Instant::now(), phases: vec![] };
-        let steering = Steering::new(problem)?;
+        let steering = sharing::steering(problem)?;
         let footprint = Footprint::new(problem, &steering);
         footprint.check()?;
         let states = state_space(problem);

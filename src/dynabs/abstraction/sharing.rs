@@ -4,10 +4,11 @@
 //! Where there is time for it, shares are compared by what they let expect: the probability of success with nominal noise
 //! ([`super::nominal`]). Samples have no part in it.
 
+use super::AbstractionError;
 use super::nominal::Nominal;
-use super::steering::Steering;
+use super::steering::{Steering, demands};
 use crate::partition::{CellId, CellKind};
-use crate::problem::Problem;
+use crate::problem::{Problem, Stabilizer};
 use crate::system::{FeedbackLaw, Shares};
 
 /// Steps beyond this one are not looked at.
@@ -25,15 +26,21 @@ const ENOUGH: f64 = 0.95;
 /// What all cells count beside that of the initial state: they show the way to it.
 const OF_ALL: f64 = 0.01;
 
+/// The law of a problem, and the conditions under which it is applied.
+pub(super) fn steering(problem: &Problem) -> Result<Steering, AbstractionError> {
+    let (system, input) = (problem.system(), problem.input());
+    let layers = problem.stabilizer().and_then(Stabilizer::feedback).map(|feedback| &feedback.layers);
+    let law = |shares: Option<&Shares>| FeedbackLaw::with_shares(system, input, layers, shares);
+    let shares = FeedbackLaw::shares(system, input, layers, &demands(problem));
+    let shares = shares.map(|shares| better(problem, shares, |shares| law(Some(shares))));
+    Ok(Steering::new(problem, law(shares.as_ref()).ok_or(AbstractionError::NotSteerable)?))
+}
+
 /// Shares with which more is expected to be reached, beginning with `shares`.
-pub(super) fn better(
-    problem: &Problem,
-    shares: Shares,
-    law: impl Fn(&Shares) -> Option<FeedbackLaw>,
-) -> Shares {
+fn better(problem: &Problem, shares: Shares, law: impl Fn(&Shares) -> Option<FeedbackLaw>) -> Shares {
     let ordinary = problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
     let cells: Vec<CellId> = ordinary.map(|(cell, _)| cell).collect();
-    let Some(targets) = law(&shares).map(|law| Steering::of_law(problem, law).targets) else { return shares };
+    let Some(targets) = law(&shares).map(|law| Steering::new(problem, law).targets) else { return shares };
     let nominal = Nominal::new(problem, &targets, 1.0, MOST_STEPS);
     let per_step =
         u64::from(problem.grid().num_cells()).saturating_mul(problem.grid().dimension() as u64 + 2);
@@ -44,7 +51,7 @@ pub(super) fn better(
     let mut left = MOST_WORK;
     shares.improved(|shares| {
         let Some(law) = law(shares) else { return Some(f64::NEG_INFINITY) };
-        let actions = Steering::of_law(problem, law).enabled(problem, &cells, &());
+        let actions = Steering::new(problem, law).enabled(problem, &cells, &());
         let work = work_of_values + nominal.steps.saturating_mul(actions.ranges.len() as u64);
         left = left.checked_sub(work)?;
         let values = nominal.values(&cells, &actions, &());

@@ -1,8 +1,6 @@
 //! Targets, the law that steers to them, and where it may be used: what samples have no part in.
 
-use super::AbstractionError;
 use super::enabled::{EnabledActions, enabled_around};
-use super::sharing;
 use super::targets::Targets;
 use crate::partition::{CellId, CellKind};
 use crate::problem::{Actions, Problem, Stabilizer};
@@ -41,20 +39,7 @@ pub(super) struct Steering {
 }
 
 impl Steering {
-    pub(super) fn new(problem: &Problem) -> Result<Self, AbstractionError> {
-        let (system, input) = (problem.system(), problem.input());
-        let layers = problem.stabilizer().and_then(Stabilizer::feedback).map(|feedback| &feedback.layers);
-        let shares = FeedbackLaw::shares(system, input, layers, &demands(problem)).map(|shares| {
-            sharing::better(problem, shares, |shares| {
-                FeedbackLaw::with_shares(system, input, layers, Some(shares))
-            })
-        });
-        let law = FeedbackLaw::with_shares(system, input, layers, shares.as_ref());
-        Ok(Self::of_law(problem, law.ok_or(AbstractionError::NotSteerable)?))
-    }
-
-    /// For a law that is given.
-    pub(super) fn of_law(problem: &Problem, law: FeedbackLaw) -> Self {
+    pub(super) fn new(problem: &Problem, law: FeedbackLaw) -> Self {
         let Actions::Targets(points) = problem.actions();
         let targets = Targets::new(points, problem.grid());
         let layers = problem.stabilizer().and_then(Stabilizer::feedback).map(|feedback| &feedback.layers);

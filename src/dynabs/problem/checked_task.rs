@@ -185,12 +185,22 @@ fn reach(
     (unsafe_, places): (&[Region], &[usize]),
     grid: &Grid,
 ) -> Result<Vec<Region>, Diagnostic> {
+    if goal.is_empty() {
+        return Err(Diagnostic::at("/task/goal", "an empty list", "at least one box to be reached").remedy(
+            "To keep clear of what is unsafe, with nothing to reach, ask to stay: \"type\": \"stay\", and no goal.",
+        ));
+    }
     let goal = regions("/task/goal", goal, grid.dimension())?;
     if let Some((i, j)) = first_overlap(&goal, unsafe_) {
         let found = format!("box {i} overlaps /task/unsafe/{}", places[j]);
         let expected = "goal boxes that meet no unsafe box";
         return Err(Diagnostic::at(format!("/task/goal/{i}"), found, expected)
             .remedy("Cut the overlap out of one of the two; boxes may touch."));
+    }
+    if first_overlap(&goal, &[whole(grid)]).is_none() {
+        let expected = "a goal that is in the partition, at least in part";
+        return Err(Diagnostic::at("/task/goal", "a goal outside of the partition", expected)
+            .remedy("Enlarge /partition until it has whole cells of the goal, and the ways there."));
     }
     let labels = CellLabels::new(grid, &goal, unsafe_);
     if labels.count(CellKind::Goal) == 0 {
@@ -199,6 +209,13 @@ fn reach(
             .remedy("Enlarge the goal, align its faces with the grid, or use more cells."));
     }
     Ok(goal)
+}
+
+/// The partition as a region.
+fn whole(grid: &Grid) -> Region {
+    let sides = grid.axes().iter().map(|axis| (Some(axis.lower().clone()), Some(axis.upper().clone())));
+    let (lower, upper) = sides.unzip();
+    Region { lower, upper }
 }
 
 /// The region to stay in, which must contain a cell that is not unsafe.

@@ -46,7 +46,7 @@ impl LinearDynamics {
     pub(crate) fn any_system(&self) -> Result<LinearSystem, Diagnostic> {
         let a = matrix("/dynamics/A", &self.a, None, Some(self.a.len()), "A is square")?;
         let n = a.rows();
-        let b = match self.b.is_empty() {
+        let b = match self.b.iter().all(Vec::is_empty) {
             true => ExactMatrix::zeros(n, 0),
             false => matrix("/dynamics/B", &self.b, Some(n), None, "as many as A has")?,
         };
@@ -68,6 +68,10 @@ impl LinearDynamics {
                 "no rows",
                 format!("{}, as many as A has", self.a.len()),
             ));
+        }
+        if self.b.iter().all(Vec::is_empty) {
+            return Err(Diagnostic::at("/dynamics/B", "no inputs", "at least one, to steer to targets with")
+                .remedy("With \"actions\": \"inputs\" a system needs none: leave B and /input out."));
         }
         let system = self.any_system()?;
         let n = system.state_dimension();

@@ -50,4 +50,18 @@ impl InputSet {
         }
         Ok(set)
     }
+
+    /// The set as a polytope, if it contains 0: what is left to the abstraction by a lower layer.
+    pub(super) fn around_zero(
+        &self,
+        place: &str,
+        dimension: usize,
+        remedy: &str,
+    ) -> Result<Polytope, Diagnostic> {
+        let set = self.polytope(place, dimension)?;
+        if !set.contains_origin() {
+            return Err(Diagnostic::at(place, "a set without 0", "a set U′ that contains 0").remedy(remedy));
+        }
+        Ok(set)
+    }
 }

@@ -109,16 +109,6 @@ impl Stabilizer {
     }
 }
 
-/// `U′` at a field, if it contains 0.
-pub(super) fn abstract_input(set: &InputSet, inputs: usize, remedy: &str) -> Result<Polytope, Diagnostic> {
-    let place = "/stabilizer/abstract_input";
-    let set = set.polytope(place, inputs)?;
-    if !set.contains_origin() {
-        return Err(Diagnostic::at(place, "a set without 0", "a set U′ that contains 0").remedy(remedy));
-    }
-    Ok(set)
-}
-
 fn linear(
     layer: &FeedbackLayer,
     system: &LinearSystem,
@@ -127,7 +117,7 @@ fn linear(
 ) -> Result<LinearStabilizer, Diagnostic> {
     let (n, p) = (system.state_dimension(), system.input_dimension());
     let remedy = "Shift U′, or stabilise about another state with /stabilizer/about.";
-    let abstract_input = abstract_input(&layer.abstract_input, p, remedy)?;
+    let abstract_input = layer.abstract_input.around_zero("/stabilizer/abstract_input", p, remedy)?;
     let (gain, riccati_residual) = match &layer.gain {
         Gain::Lqr(weights) => {
             let (a, b) = (system.a().to_f64(), system.b().to_f64());

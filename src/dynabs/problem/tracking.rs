@@ -1,6 +1,5 @@
 //! A lower layer that follows a plan.
 
-use super::lower_layer::abstract_input;
 use super::values::vector;
 use super::{InputSet, Objective};
 use crate::Diagnostic;
@@ -40,7 +39,10 @@ impl Tracking {
     /// The layer for the grouped inputs `input`.
     pub(super) fn new(layer: &TrackingLayer, input: &Polytope, grid: &Grid) -> Result<Self, Diagnostic> {
         let abstract_input = match &layer.abstract_input {
-            Some(set) => abstract_input(set, input.dimension(), "Shift U′: what the plan says is u′ = 0.")?,
+            Some(set) => {
+                let remedy = "Shift U′: what the plan says is u′ = 0.";
+                set.around_zero("/stabilizer/abstract_input", input.dimension(), remedy)?
+            }
             None => automatic(input)?,
         };
         let mut given: Vec<(CellId, Vec<f64>)> = Vec::with_capacity(layer.given.len());

@@ -2,7 +2,7 @@
 //!
 //! `V_0 = 1_goal`, `V_{k+1}(s) = opt_a opt_p p·V_k` for safe states that are not goal states.
 
-use super::contenders::Contenders;
+use super::contenders::{Contenders, LITTLE_GROWTH};
 use super::evidence::Recorder;
 use super::expectation::Bound;
 use super::history::History;
@@ -13,7 +13,7 @@ use super::range_optimum::RangeOptimum;
 use super::sweep::Sweep;
 use super::{Policy, Solution, SolveError, SolverOptions, Status, ValueBounds};
 use crate::certificate::Evidence;
-use crate::model::{GrowingMemory, IntervalMdp, StateId, StateSet};
+use crate::model::{GrowingMemory, IntervalMdp, RowId, StateId, StateSet};
 
 /// The value of `safe U<=steps goal`.
 pub(super) fn until(
@@ -58,7 +58,7 @@ pub(super) fn next(
     let mut iteration = Iteration::new(model, players, states, goal, options);
     // `X` is no `U<=1`: a goal state may be left at once.
     iteration.monotone = false;
-    iteration.contenders = None;
+    (iteration.asks, iteration.contenders) = (false, None);
     iteration.step(1)?;
     Ok(iteration.finish(1, Status::HorizonReached, 1))
 }
@@ -79,8 +79,12 @@ struct Iteration<'a> {
     upper: Vec<f64>,
     lower_rows: RangeOptimum,
     upper_rows: RangeOptimum,
+    /// Whether to ask at some time which rows may be the best of some state.
+    asks: bool,
     /// Of lower and of upper bounds.
     contenders: Option<[Contenders; 2]>,
+    /// How much values have grown in the last step, at most.
+    grown: f64,
     results: Vec<f64>,
     gap: f64,
     /// Whether values can only grow from step to step.
@@ -115,8 +119,8 @@ impl<'a> Iteration<'a> {
         let mut table = RangeOptimum::new(players.policy, model.rows().len());
         table.prepare(model.choices(), &states);
         let rows = model.choices().used_rows(model.rows().len(), states.iter().copied());
-        let maximises = players.policy == Direction::Max;
-        let contenders = maximises.then(|| Contenders::new(model)).flatten();
+        let asks = players.policy == Direction::Max && Contenders::pay(model);
+        let asks_at_once = asks && model.rows().as_stored().is_none();
         Self {
             model,
             players,
@@ -124,7 +128,13 @@ impl<'a> Iteration<'a> {
             upper: indicator(goal),
             lower_rows: table.clone(),
             upper_rows: table,
-            contenders: contenders.map(|contenders| [contenders.clone(), contenders]),
+            asks,
+            // Before the first step all values are 0, and so is what any row is worth.
+            contenders: asks_at_once.then(|| {
+                let none = Contenders::new(model, &vec![0.0; model.num_states()]);
+                [none.clone(), none]
+            }),
+            grown: f64::INFINITY,
             results: vec![],
             gap: 0.0,
             monotone: true,
@@ -152,14 +162,12 @@ impl<'a> Iteration<'a> {
         }
         let guaranteed = guaranteed(self.players.policy, &self.lower, &self.upper);
         self.history.keep(guaranteed);
-        self.evaluate_rows(Bound::Lower);
-        if self.wants_upper {
-            self.evaluate_rows(Bound::Upper);
-        }
+        self.evaluate_rows();
         let mut recorder = self.recorder.as_mut();
         if let Some(recorder) = &mut recorder {
             recorder.begin()?;
         }
+        let mut grown = 0.0f64;
         self.sweep.evaluate_states(&self.lower_rows, &mut self.results);
         for (i, (&s, &value)) in self.sweep.states.iter().zip(&self.results).enumerate() {
             let old = &mut self.lower[s.index()];
@@ -168,6 +176,7 @@ impl<'a> Iteration<'a> {
             let value = if self.monotone { value.max(*old) } else { value };
             if value != *old {
                 changed = true;
+                grown = grown.max(value - *old);
                 *old = value;
                 if let Some(recorder) = &mut recorder {
                     recorder.lower(s, value);
@@ -194,22 +203,43 @@ impl<'a> Iteration<'a> {
         if let Some(recorder) = recorder {
             recorder.end();
         }
+        self.grown = grown;
         self.update_policy(left);
         Ok(changed)
     }
 
-    /// Evaluates the rows that may be the best of some state.
-    fn evaluate_rows(&mut self, side: Bound) {
-        let Self { model, sweep, contenders, .. } = self;
-        let (values, table, place) = match side {
-            Bound::Lower => (&self.lower, &mut self.lower_rows, 0),
-            Bound::Upper => (&self.upper, &mut self.upper_rows, 1),
-        };
-        let Some(contenders) = contenders.as_mut().map(|contenders| &mut contenders[place]) else {
-            return sweep.evaluate_rows(values, side, table);
-        };
-        contenders.look(model, &sweep.states, values, table);
-        sweep.evaluate_some_rows(values, side, table, |row| contenders.wants(row));
+    /// Evaluates the rows that may be the best of some state, for bounds on both sides if wanted.
+    fn evaluate_rows(&mut self) {
+        let Self {
+            model,
+            sweep,
+            contenders,
+            lower,
+            upper,
+            lower_rows,
+            upper_rows,
+            wants_upper,
+            asks,
+            grown,
+            ..
+        } = self;
+        if let Some([below, above]) = contenders {
+            below.look(model, &sweep.states, lower, lower_rows);
+            if *wants_upper {
+                above.look(model, &sweep.states, upper, upper_rows);
+            }
+        } else if *asks && *grown <= LITTLE_GROWTH {
+            *contenders = Some([Contenders::new(model, lower), Contenders::new(model, upper)]);
+        }
+        let wants = |side: usize, row: RowId| contenders.as_ref().is_none_or(|both| both[side].wants(row));
+        if *wants_upper {
+            let values: Vec<[f64; 2]> = lower.iter().zip(&*upper).map(|(&low, &high)| [low, high]).collect();
+            let (sides, tables) = ([Bound::Lower, Bound::Upper], [lower_rows, upper_rows]);
+            sweep.evaluate_some_rows(&values, sides, tables, |row| [wants(0, row), wants(1, row)]);
+        } else {
+            let (values, _) = lower.as_chunks::<1>();
+            sweep.evaluate_some_rows(values, [Bound::Lower], [lower_rows], |row| [wants(0, row)]);
+        }
     }
 
     /// Replaces the choices that are no longer optimal on the side that the policy must guarantee.

@@ -22,23 +22,33 @@ const WORTHWHILE: usize = 16;
 pub(super) struct Contenders {
     /// By row, how much its successors can have grown since it was evaluated.
     growth: Vec<f64>,
-    /// The values of the last step: 0 before the first one, when every row is worth 0.
+    /// The values of the last step.
     before: Vec<f64>,
     wanted: Vec<bool>,
     /// `μ` above.
     margin: f64,
 }
 
+/// What is known of the successors of stored rows is how much all values grow: while that is more than this in a step, it is more than
+/// rows of a state differ by.
+pub(super) const LITTLE_GROWTH: f64 = 1e-3;
+
 impl Contenders {
-    /// No row has been evaluated; nothing if asking would take longer than evaluating.
-    pub(super) fn new(model: &IntervalMdp) -> Option<Self> {
+    /// Whether asking takes less time than evaluating.
+    pub(super) fn pay(model: &IntervalMdp) -> bool {
         let rows = model.rows();
-        (rows.num_entries() >= WORTHWHILE * (rows.len() + model.choices().num_ranges())).then(|| Self {
+        rows.num_entries() >= WORTHWHILE * (rows.len() + model.choices().num_ranges())
+    }
+
+    /// All rows have been evaluated at these values, or are about to be: unless they are [looked](Self::look) at, all are wanted.
+    pub(super) fn new(model: &IntervalMdp, values: &[f64]) -> Self {
+        let rows = model.rows();
+        Self {
             growth: vec![0.0; rows.len()],
-            before: vec![0.0; model.num_states()],
-            wanted: vec![false; rows.len()],
+            before: values.to_vec(),
+            wanted: vec![true; rows.len()],
             margin: 4.0 * rounding_factor(3 * rows.longest() + 16),
-        })
+        }
     }
 
     /// Looks for the rows that may be the best of one of the `states` at these values; `table` holds what rows were worth.

@@ -62,14 +62,20 @@ pub(super) struct RowBlock {
 /// Room for the evaluation of one row after the other.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Workspace {
-    scratch: Scratch,
+    /// For as many values of a state as are looked at together.
+    scratch: [Scratch; 2],
     buffer: RowBuffer,
 }
 
 impl RowBlock {
-    /// The rows, which are not [prepared](Self::prepare).
+    /// The rows, ascending, which are not [prepared](Self::prepare).
     pub(super) fn new(rows: Vec<RowId>) -> Self {
         Self { rows, critical: vec![], slacks: vec![] }
+    }
+
+    /// The place of its first row among all rows.
+    pub(super) fn start(&self) -> usize {
+        self.rows.first().map_or(0, |row| row.index())
     }
 
     /// Gets ready to evaluate the rows.
@@ -78,22 +84,40 @@ impl RowBlock {
         self.critical = vec![0; self.rows.len()];
     }
 
-    /// The expectations of the rows of the block, in their order; those that are `known` are taken as they are.
-    pub(super) fn evaluate(
+    /// The expectations of the rows of the block at one or two values of every state, those `wanted`: each row is looked at once.
+    ///
+    /// They are written to `out`, where the first row of the block is first and others have their places after it.
+    pub(super) fn evaluate<const N: usize>(
         &mut self,
         all: &RowSet,
-        values: &[f64],
-        (nature, side): (Direction, Bound),
-        known: impl Fn(RowId) -> Option<f64>,
+        values: &[[f64; N]],
+        (nature, sides): (Direction, [Bound; N]),
+        wanted: impl Fn(RowId) -> [bool; N],
+        out: [&mut [f64]; N],
         Workspace { scratch, buffer }: &mut Workspace,
-    ) -> Vec<f64> {
+    ) {
         let Self { rows, critical, slacks } = self;
-        let expectations = rows.iter().zip(slacks).zip(critical).map(|((&id, slack), critical)| {
-            known(id).unwrap_or_else(|| {
-                expectation((all.row(id, buffer), *slack), values, (critical, scratch), nature, side)
-            })
-        });
-        expectations.collect()
+        let Some(&first) = rows.first() else { return };
+        for ((&id, &slack), critical) in rows.iter().zip(&*slacks).zip(critical) {
+            let wanted = wanted(id);
+            if wanted == [false; N] {
+                continue;
+            }
+            let row = all.row(id, buffer);
+            // Successors are far apart in memory, so both of their values are fetched together.
+            let [one, other] = &mut *scratch;
+            one.values.resize(row.len(), 0.0);
+            other.values.resize(row.len(), 0.0);
+            let places = one.values.iter_mut().zip(&mut other.values);
+            for (successor, (one, other)) in row.successors.iter().zip(places) {
+                let values = &values[successor.index()];
+                (*one, *other) = (values[0], values[N - 1]);
+            }
+            for i in (0..N).filter(|&i| wanted[i]) {
+                let parts = (&mut *critical, &mut scratch[i]);
+                out[i][id.index() - first.index()] = expectation((row, slack), parts, nature, sides[i]);
+            }
+        }
     }
 }
 
@@ -110,8 +134,10 @@ impl WorstExpectation {
     pub fn of(&mut self, row: Row<'_>, values: &[f64]) -> f64 {
         let near = row.successors.iter().position(|s| values[s.index()] == self.threshold);
         let mut critical = near.unwrap_or(0) as u32;
+        self.scratch.values.clear();
+        self.scratch.values.extend(row.successors.iter().map(|&s| values[s.index()]));
         let parts = (&mut critical, &mut self.scratch);
-        let worst = expectation((row, slack(row)), values, parts, Direction::Min, Bound::Lower);
+        let worst = expectation((row, slack(row)), parts, Direction::Min, Bound::Lower);
         self.threshold = row.successors.get(critical as usize).map_or(0.0, |s| values[s.index()]);
         worst
     }
@@ -122,20 +148,17 @@ fn slack(row: Row<'_>) -> f64 {
     1.0 - row.lower.iter().sum::<f64>()
 }
 
-/// A bound on `min_p p·V` or `max_p p·V`, see the module's documentation.
+/// A bound on `min_p p·V` or `max_p p·V` for the values of its successors, see the module's documentation.
 fn expectation(
     (row, slack): (Row<'_>, f64),
-    values: &[f64],
     (critical, scratch): (&mut u32, &mut Scratch),
     nature: Direction,
     side: Bound,
 ) -> f64 {
     if row.len() < 2 {
         // A single successor has all the mass.
-        return values[row.successors[0].index()];
+        return scratch.values[0];
     }
-    scratch.values.clear();
-    scratch.values.extend(row.successors.iter().map(|&s| values[s.index()]));
     // `rounding_factor` doubles: this is η = (2m + 8)ε.
     let margin = rounding_factor(row.len() + 4);
     let slack = match side {
@@ -219,8 +242,11 @@ mod tests {
                 let values: Vec<f64> = values.into_iter().map(|v| f64::from(v) / 11.0).collect();
                 for nature in [Direction::Min, Direction::Max] {
                     let expected = sorted(rows.row(id, &mut buffer), &values, nature);
-                    let [low, high] = [Bound::Lower, Bound::Upper]
-                        .map(|side| block.evaluate(&rows, &values, (nature, side), |_| None, &mut workspace)[0]);
+                    let (mut low, mut high) = ([0.0], [0.0]);
+                    let (sides, out) = ([Bound::Lower, Bound::Upper], [&mut low[..], &mut high[..]]);
+                    let both: Vec<[f64; 2]> = values.iter().map(|&value| [value; 2]).collect();
+                    block.evaluate(&rows, &both, (nature, sides), |_| [true; 2], out, &mut workspace);
+                    let ([low], [high]) = (low, high);
                     prop_assert!(low <= expected && expected <= high, "{low} {expected} {high}");
                     prop_assert!(high - low < 1e-12, "{low} {high}");
                 }

@@ -65,51 +65,51 @@ impl<'a> Sweep<'a> {
 
     /// Evaluates the rows at `values` into the table.
     pub(super) fn evaluate_rows(&mut self, values: &[f64], side: Bound, table: &mut RangeOptimum) {
-        self.evaluate_some_rows(values, side, table, |_| true);
+        self.evaluate_some_rows(values.as_chunks::<1>().0, [side], [table], |_| [true]);
     }
 
-    /// Evaluates those rows that are `wanted`; the others keep what the table says.
-    pub(super) fn evaluate_some_rows(
+    /// Evaluates the rows at one or two values of every state, each row once, into a table for each; those that are not `wanted`
+    /// keep what the table says.
+    pub(super) fn evaluate_some_rows<const N: usize>(
         &mut self,
-        values: &[f64],
-        side: Bound,
-        table: &mut RangeOptimum,
-        wanted: impl Fn(RowId) -> bool + Sync,
+        values: &[[f64; N]],
+        sides: [Bound; N],
+        mut tables: [&mut RangeOptimum; N],
+        wanted: impl Fn(RowId) -> [bool; N] + Sync,
     ) {
-        let (all, way) = (self.model.rows(), (self.players.nature, side));
-        let results: Vec<Vec<f64>> = {
-            let known = |row: RowId| (!wanted(row)).then(|| table.values()[row.index()]);
-            let evaluate = |workspace: &mut Workspace, block: &mut RowBlock| {
-                block.evaluate(all, values, way, known, workspace)
-            };
-            match &mut self.blocks[self.share.own()] {
-                [block] => vec![evaluate(&mut self.workspace, block)],
-                blocks => blocks.par_iter_mut().map_init(Workspace::default, evaluate).collect(),
-            }
+        let (all, way) = (self.model.rows(), (self.players.nature, sides));
+        let (own, blocks) = (self.share.own(), self.blocks.len());
+        // Blocks are in the order of their rows, so each has a stretch of the table to itself.
+        let starts: Vec<usize> = self.blocks.iter().map(RowBlock::start).collect();
+        let evaluate = |workspace: &mut Workspace, (block, out): (&mut RowBlock, [&mut [f64]; N])| {
+            block.evaluate(all, values, way, &wanted, out, workspace);
         };
-        let weights = table.values_mut();
-        let mut note = |row: RowId, w: f64| weights[row.index()] = w;
-        if self.share.is_all() {
-            let blocks = self.blocks.iter().zip(results);
-            blocks.for_each(|(block, results)| block.rows.iter().zip(results).for_each(|(&r, w)| note(r, w)));
-        } else {
-            self.rows().zip(self.results_of_all(results)).for_each(|(row, w)| note(row, w));
-        }
-        table.rebuild();
-    }
-
-    /// The results of the rows of all processes, from those of the blocks of this one.
-    fn results_of_all(&self, own: Vec<Vec<f64>>) -> Vec<f64> {
-        let ends = self.blocks.iter().scan(0, |end, block| {
-            *end += block.rows.len();
-            Some(*end)
+        let mut rests = tables.each_mut().map(|table| {
+            let first = starts.get(own.start).copied().unwrap_or(0);
+            &mut table.values_mut()[first..]
         });
-        let starts: Vec<usize> = std::iter::once(0).chain(ends).collect();
-        let mut all = vec![0.0; starts[self.blocks.len()]];
-        let places = all[starts[self.share.own().start]..].iter_mut();
-        places.zip(own.into_iter().flatten()).for_each(|(place, w)| *place = w);
-        self.share.complete_with(&mut all, |block| starts[block]);
-        all
+        let own_blocks = self.blocks[own.clone()].iter_mut().enumerate().map(|(i, block)| {
+            let next = own.start + i + 1;
+            let length = starts.get(next).map(|next_start| next_start - starts[next - 1]);
+            let out = rests.each_mut().map(|rest| {
+                let whole = std::mem::take(rest);
+                let (out, others) = whole.split_at_mut(length.unwrap_or(whole.len()));
+                *rest = others;
+                out
+            });
+            (block, out)
+        });
+        if own.len() == 1 {
+            own_blocks.for_each(|task| evaluate(&mut self.workspace, task));
+        } else {
+            own_blocks.collect::<Vec<_>>().into_par_iter().for_each_init(Workspace::default, evaluate);
+        }
+        for table in tables {
+            let rows = table.values().len();
+            let start = |block: usize| if block < blocks { starts[block] } else { rows };
+            self.share.complete_with(table.values_mut(), |block| if block == 0 { 0 } else { start(block) });
+            table.rebuild();
+        }
     }
 
     /// The optimum over the choices of every state, in the order of [`Sweep::states`].

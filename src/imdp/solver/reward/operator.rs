@@ -109,13 +109,10 @@ impl Operator {
         let needs_own = discount != 1.0 || !self.branches.is_empty();
         let later: Cow<'_, [f64]> =
             if needs_own { self.later(values, discount, side).into() } else { values.into() };
-        let weights = self.block.evaluate(
-            &self.rows,
-            &later,
-            (self.players.nature, side),
-            |_| None,
-            &mut self.workspace,
-        );
+        let mut weights = vec![0.0; self.rows.len()];
+        let (later, _) = later.as_chunks::<1>();
+        let (way, out) = ((self.players.nature, [side]), [&mut weights[..]]);
+        self.block.evaluate(&self.rows, later, way, |_| [true], out, &mut self.workspace);
         let maximises = self.players.policy == Direction::Max;
         let (mut results, mut chosen) = (vec![], vec![]);
         for choices in &self.choices {

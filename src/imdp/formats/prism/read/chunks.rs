@@ -3,7 +3,7 @@
 use std::io::{self, Read};
 
 /// How much text a chunk holds, unless one choice is longer.
-const CHUNK: usize = 512 << 10;
+const CHUNK: usize = 128 << 10;
 
 /// Longer lines are refused: no line of a `.tra` file needs as much.
 const LONGEST_LINE: usize = 64 << 10;
