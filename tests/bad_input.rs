@@ -142,7 +142,7 @@ const MISTAKES: &[Mistake] = &[
     mistake(ONE_LAYER, "/targets=[[0,0],[1]]", &["/targets/1", "1 number"]),
     // The file itself.
     mistake(ONE_LAYER, "/dynamics/C=[[1]]", &["/dynamics/C", "unknown field `C`", "`A`"]),
-    mistake(ONE_LAYER, "/dynamic={}", &["/dynamic", "unknown field `dynamic`"]),
+    mistake(ONE_LAYER, "/dynamic={}", &["/dynamic", "unknown field `dynamic`", "Did you mean \"dynamics\"?"]),
     mistake(ONE_LAYER, "/name=7", &["/name", "7", "string"]),
     mistake(ONE_LAYER, "/name=\"a\\n  satisfied\"", &["/name", "more than one line", "one line"]),
     mistake(ONE_LAYER, "/probabilities/confidence=1", &["/probabilities/confidence", "strictly between"]),
@@ -199,10 +199,33 @@ fn mistakes_in_samples_have_line_and_column() {
         ("0.5,inf", ["line 731, column 2", "\"inf\"", "finite number"]),
         ("0.5,0.25,1", ["line 731", "3 columns", "2, one per dimension"]),
         ("x,0.25", ["line 731, column 1", "\"x\"", "double_integrator.csv"]),
+        ("0,5;0,25", ["line 731, column 1", "\"0,5\"", "\"decimal\": \",\" in /noise/samples"]),
     ] {
         let directory = with_line_731(line);
         expect_refusal(&directory.path().join("m.json"), &[], &words);
     }
+}
+
+/// What a spreadsheet writes of the same samples says the same.
+#[test]
+fn samples_of_spreadsheets_are_read() {
+    let directory = with_line_731("0.5,0.25");
+    let (model, samples) =
+        (directory.path().join("m.json"), directory.path().join("noise/double_integrator.csv"));
+    let (model, plain) = (model.to_str().unwrap(), fs::read_to_string(&samples).unwrap());
+    let bound = |set: &[&str]| {
+        let (code, text, error) = compile(&[&[model, "--dry-run", "--solve", "--json"], set].concat());
+        assert_eq!(code, 0, "{error}");
+        let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+        value["results"][0]["lower"].clone()
+    };
+    let expected = bound(&[]);
+    assert!(expected.is_f64(), "{expected}");
+    fs::write(&samples, format!("\u{feff}x1;x2\r\n{}", plain.replace(',', ";").replace('\n', "\r\n")))
+        .unwrap();
+    assert_eq!(bound(&[]), expected);
+    fs::write(&samples, plain.replace(',', ";").replace('.', ",")).unwrap();
+    assert_eq!(bound(&["--set", "/noise/samples/decimal=,"]), expected);
 }
 
 #[test]
@@ -213,6 +236,8 @@ fn mistakes_in_files_are_named() {
         ("{\"name\": \"x\",\n \"name\": \"y\"}", ["line 2", "\"name\" twice"]),
         ("{\"name\": }", ["line 1", "expected value"]),
         ("{\"name\": \"x\"} trailing", ["line 1", "trailing"]),
+        ("{\n  // a car\n  \"name\": \"x\"}", ["line 2", "JSON has no comments"]),
+        ("{\"name\": /* a car */ \"x\"}", ["line 1, column 10", "JSON has no comments"]),
         ("[]", ["m.json", "struct ModelFile"]),
         ("{\"name\": \"x\"}", ["no field `dynamics`", "m.json"]),
     ] {

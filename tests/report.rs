@@ -409,6 +409,33 @@ fn one_unit_has_one_scale_and_runs_outside_of_the_slice_are_faded() {
 }
 
 #[test]
+fn runs_over_time_and_the_noise_are_drawn() {
+    let scratch = TempDir::new().unwrap();
+    let mut model = vehicle();
+    model["noise"]["components"][0] = json!(null);
+    let (page, _) = page_of(&scratch, "vehicle", &model);
+    let page = fs::read_to_string(page).unwrap();
+    let picture = |name: &str| {
+        let path = scratch.path().join(format!("vehicle/svg/{name}.svg"));
+        path.exists().then(|| fs::read_to_string(path).unwrap())
+    };
+    for name in ["state-1", "state-2", "state-3", "input-1", "input-2", "noise", "noise-2", "noise-3"] {
+        let svg = picture(name).unwrap_or_else(|| panic!("no {name}.svg"));
+        assert_well_formed(&svg);
+        assert_numbers(&svg);
+        assert!(page.contains(&format!("id=\"{name}\"")), "{name} is not on the page");
+    }
+    assert!(picture("noise-1").is_none() && picture("state-4").is_none(), "there is nothing to draw");
+    let input = picture("input-1").unwrap();
+    assert_eq!(input.matches("class=\"threshold\"").count(), 2, "the limits of U");
+    assert_eq!(picture("state-2").unwrap().matches("<path class=\"trace").count(), 9, "a line for every run");
+    // Of a normal distribution with deviation .1 nearly all lies within half a cell, .25, of 0.
+    let bars = between(&picture("noise-3").unwrap(), "<path class=\"bar\" d=\"", "\"").matches('M').count();
+    assert!((1..=3).contains(&bars), "{bars} bars");
+    assert_eq!(between(&picture("noise").unwrap(), "class=\"sample\" d=\"", "\"").matches('M').count(), 1000);
+}
+
+#[test]
 fn inputs_are_reported() {
     let scratch = TempDir::new().unwrap();
     for (name, model) in input_models() {
@@ -495,8 +522,9 @@ fn other_programs_draw_the_same() {
     let mut pictures: Vec<PathBuf> = vec![];
     for (name, model) in input_models() {
         page_of(&scratch, name, &model);
-        pictures
-            .extend(["value", "section"].map(|plot| scratch.path().join(format!("{name}/svg/{plot}.svg"))));
+        let small = ["state-2", "input-1", "noise", "noise-1"].iter().take(if name == "car" { 4 } else { 0 });
+        let plots = ["value", "section"].iter().chain(small);
+        pictures.extend(plots.map(|plot| scratch.path().join(format!("{name}/svg/{plot}.svg"))));
     }
     let python = std::env::var("DYNABS_PYTHON");
     let mut command = std::process::Command::new(python.as_deref().unwrap_or("python3"));

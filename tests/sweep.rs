@@ -56,6 +56,37 @@ fn every_combination_is_a_job_with_its_part_of_the_confidence() {
     assert_eq!(dynabs(&["sweep", &other, "-o", out_name]).status.code(), Some(2), "another sweep's place");
 }
 
+/// Plans are free, so settings that differ in nothing else have all of the confidence each, and the smallest model is found.
+#[test]
+fn the_smallest_model_with_a_plan_is_found() {
+    let scratch = tempfile::tempdir().unwrap();
+    let follow = |u: f64| json!({"track": "auto", "abstract_input": {"lower": [-u], "upper": [u]}});
+    let settings = json!([{"/stabilizer": follow(1.0)}, {"/stabilizer": follow(0.3)}]);
+    let spec = write_spec(scratch.path(), &settings);
+    let out = scratch.path().join("shared");
+    let told = |spec: &str, out: &Path, wanted: &str| {
+        let output = dynabs(&["sweep", spec, "-o", out.to_str().unwrap(), "-q", "--wanted", wanted]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    // The whole layer may differ in more.
+    assert!(told(&spec, &out, "0.9").contains("/probabilities/sweep"));
+    let model = scratch.path().join("model.json");
+    let text = fs::read_to_string(root().join("models/room_temperature.json")).unwrap();
+    let mut value: Value = serde_json::from_str(&text).unwrap();
+    value["stabilizer"] = json!({"track": "auto"});
+    fs::write(&model, value.to_string()).unwrap();
+    let inputs: Vec<Value> = [1.0, 0.3].iter().map(|&u| follow(u)["abstract_input"].clone()).collect();
+    let spec = scratch.path().join("plans.json");
+    let settings = json!({"model": model, "settings": {"/stabilizer/abstract_input": inputs}});
+    fs::write(&spec, settings.to_string()).unwrap();
+    let out = scratch.path().join("free");
+    let text = told(spec.to_str().unwrap(), &out, "0.9");
+    assert!(!text.contains("/probabilities/sweep"), "{text}");
+    assert!(text.contains("0002 has the fewest transitions of all with at least 0.9"), "{text}");
+    assert!(told(spec.to_str().unwrap(), &out, "0.9999").contains("none of these settings"));
+}
+
 #[test]
 fn slurm_gets_an_array_of_jobs_that_a_shell_can_run() {
     let scratch = tempfile::tempdir().unwrap();

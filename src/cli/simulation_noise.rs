@@ -3,6 +3,7 @@
 use super::CliError;
 use clap::{Args, ValueEnum};
 use dynabs::controller::Noise;
+use dynabs::noise::DecimalMark;
 use dynabs::problem::{GaussianNoise, NoiseSource, SampleKind, SamplesFile, StepNoise};
 use dynabs::run::Run;
 use std::path::Path;
@@ -156,7 +157,12 @@ fn given_samples(file: &Path, of: Of, run: &Run) -> Result<Noise, CliError> {
         Of::Step => SampleKind::Step,
         Of::Grouped => SampleKind::Grouped,
     };
-    let source = NoiseSource::from(SamplesFile { name: file.display().to_string(), path: file.into(), of });
+    let source = NoiseSource::from(SamplesFile {
+        name: file.display().to_string(),
+        path: file.into(),
+        of,
+        decimal: DecimalMark::Point,
+    });
     let noise = source.obtain(run.problem.step_system(), run.problem.group_steps());
     Ok(Noise::of(&noise.map_err(|error| error.in_file("--noise"))?))
 }

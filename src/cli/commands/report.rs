@@ -130,7 +130,7 @@ pub fn run(arguments: &ReportArguments) -> Result<ExitCode, CliError> {
     if let Some(directory) = &arguments.svg {
         fs::create_dir_all(directory).map_err(|error| CliError::writing(directory, &error))?;
         let path = |name: &str| directory.join(format!("{name}.svg"));
-        texts.extend(pictures.into_iter().map(|picture| (path(picture.name), picture.svg)));
+        texts.extend(pictures.into_iter().map(|picture| (path(&picture.name), picture.svg)));
     }
     let mut files = Outputs::default();
     for (path, text) in &texts {

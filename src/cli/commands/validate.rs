@@ -6,7 +6,7 @@ use crate::{Bars, CliError, print, print_json, thousands};
 use clap::{Args, ValueEnum};
 use dynabs::controller::{Noise, Simulation, samples_per_run};
 use dynabs::guarantee::lower_bound_text;
-use dynabs::noise::{NoiseSamples, overlap, parse_csv};
+use dynabs::noise::{DecimalMark, NoiseSamples, overlap, parse_csv};
 use dynabs::problem::{Problem, SampleKind, StepNoise};
 use dynabs::statistics::lower_bound;
 use dynabs::task::Safety;
@@ -150,7 +150,7 @@ pub fn run(arguments: &ValidateArguments) -> Result<ExitCode, CliError> {
 fn fresh(path: &Path, problem: &Problem, of: SampleKind) -> Result<NoiseSamples, CliError> {
     let shown = path.display();
     let text = files::read_text(path).map_err(|error| CliError::reading(path, &error))?;
-    let samples = parse_csv(&text, problem.grid().dimension())
+    let samples = parse_csv(&text, problem.grid().dimension(), DecimalMark::Point)
         .map_err(|error| CliError::Input(format!("{shown}: {error}")))?;
     let Some(own) = problem.noise().samples() else { return Ok(samples) };
     let used = match (&own.of_one_step, of) {

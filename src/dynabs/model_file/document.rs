@@ -2,6 +2,7 @@
 
 use super::fields::ModelFile;
 use crate::Diagnostic;
+use imdp::property::closest_name;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::Value;
 use serde_path_to_error::{Path as ErrorPath, Segment};
@@ -53,7 +54,12 @@ impl Document {
         let name = path.display().to_string();
         let value = parse_json(text).map_err(|error| {
             let place = format!("{} (line {}, column {})", error.path, error.line, error.column);
-            Diagnostic::at(place.trim_start(), error.message, "a model file in JSON").in_file(&name)
+            let mistake =
+                Diagnostic::at(place.trim_start(), error.message, "a model file in JSON").in_file(&name);
+            match is_comment(text, error.line, error.column) {
+                true => mistake.remedy("JSON has no comments; \"description\" may say what there is to say."),
+                false => mistake,
+            }
         })?;
         let directory = path.parent().map(Path::to_path_buf).unwrap_or_default();
         Ok(Self { name, directory, value })
@@ -102,9 +108,22 @@ impl Document {
             let place = pointer(error.path());
             let message = error.into_inner().to_string();
             let (found, expected) = found_and_expected(&message);
-            Diagnostic::at(place, found, expected).in_file(&self.name)
+            let nearest = nearest(&message);
+            let mistake = Diagnostic::at(place, found, expected).in_file(&self.name);
+            match nearest {
+                Some(field) => mistake.remedy(format!("Did you mean \"{field}\"?")),
+                None => mistake,
+            }
         })
     }
+}
+
+/// The field that was meant, if serde says "unknown field `x`, expected one of …" (or variant) and one of them is near.
+fn nearest(message: &str) -> Option<String> {
+    let is_name = message.starts_with("unknown field") || message.starts_with("unknown variant");
+    let mut names = message.split('`').skip(1).step_by(2).map(str::to_owned);
+    let found = names.next().filter(|_| is_name)?;
+    closest_name(&found, &names.collect::<Vec<_>>()).map(str::to_owned)
 }
 
 /// Splits serde's "unknown field `x`, expected one of …" and "invalid type: …, expected …".
@@ -153,6 +172,13 @@ fn parse_json(text: &str) -> Result<Value, JsonError> {
         message: without_position(&error),
     })?;
     Ok(value)
+}
+
+/// Whether a comment of another language begins at a place, the lines and columns of which count from 1.
+fn is_comment(text: &str, line: usize, column: usize) -> bool {
+    let bytes = text.lines().nth(line.saturating_sub(1)).unwrap_or_default().as_bytes();
+    let rest = bytes.get(column.saturating_sub(1)..).unwrap_or_default();
+    [&b"//"[..], b"/*", b"#"].iter().any(|start| rest.starts_with(start))
 }
 
 fn without_position(error: &serde_json::Error) -> String {

@@ -132,7 +132,8 @@ pub(super) enum IndependentSpec {
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SamplesSpec {
-    /// A CSV file without header, one sample of n numbers per line; relative to the model file.
+    /// A CSV file, one sample of n numbers per line, separated by commas or semicolons; the first line may have names instead.
+    /// Relative to the model file.
     #[serde(default)]
     pub(super) file: Option<String>,
     /// The samples themselves, n numbers each.
@@ -140,6 +141,22 @@ pub(super) struct SamplesSpec {
     pub(super) values: Option<Vec<Vec<f64>>>,
     /// "grouped" if a sample is the noise of d steps together, "step" if it is that of one step.
     pub(super) of: SampleKindSpec,
+    /// What separates whole numbers from decimals: "." (the default) or ",", with semicolons between numbers.
+    #[serde(default)]
+    pub(super) decimal: DecimalSpec,
+}
+
+/// What separates whole numbers from decimals.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize, JsonSchema)]
+#[schemars(rename = "DecimalMark")]
+pub(super) enum DecimalSpec {
+    /// A point.
+    #[default]
+    #[serde(rename = ".")]
+    Point,
+    /// A comma.
+    #[serde(rename = ",")]
+    Comma,
 }
 
 /// What a sample is the noise of.

@@ -2,8 +2,8 @@
 
 use super::dynamics::DynamicsSpec;
 use super::fields::{
-    CostSpec, GaussianSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec, SampleKindSpec, SamplesSpec,
-    TargetsSpec,
+    CostSpec, DecimalSpec, GaussianSpec, Mode, ModelFile, NoiseSpec, ProbabilitiesSpec, SampleKindSpec,
+    SamplesSpec, TargetsSpec,
 };
 use super::given::given;
 use super::named::Named;
@@ -11,6 +11,7 @@ use super::set_fields::{GridSpec, SetSpec};
 use super::stabilizer_parts::lower_layer;
 use super::task_parts::task;
 use crate::Diagnostic;
+use crate::noise::DecimalMark;
 use crate::problem::{
     CostParts, DrawnNoise, GaussianNoise, GivenSamples, InputSet, LinearDynamics, NoiseSource, Partition,
     Probabilities, Problem, ProblemBuilder, SampleKind, SamplesFile, TargetChoice,
@@ -167,8 +168,15 @@ fn samples(spec: SamplesSpec, directory: &Path, n: usize) -> Result<NoiseSource,
         SampleKindSpec::Grouped => SampleKind::Grouped,
         SampleKindSpec::Step => SampleKind::Step,
     };
+    let decimal = match spec.decimal {
+        DecimalSpec::Point => DecimalMark::Point,
+        DecimalSpec::Comma => DecimalMark::Comma,
+    };
     match (spec.file, spec.values) {
-        (Some(file), None) => Ok(SamplesFile { path: directory.join(&file), name: file, of }.into()),
+        (Some(file), None) => Ok(SamplesFile { path: directory.join(&file), name: file, of, decimal }.into()),
+        (None, Some(_)) if decimal == DecimalMark::Comma => {
+            Err(Diagnostic::at("/noise/samples/decimal", "a field for files", "only values and of"))
+        }
         (None, Some(values)) => {
             if let Some(i) = values.iter().position(|sample| sample.len() != n) {
                 let found = format!("{} numbers", values[i].len());

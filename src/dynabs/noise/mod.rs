@@ -6,7 +6,7 @@ pub mod known;
 mod overlap;
 mod samples;
 
-pub use csv::{CsvError, parse_csv};
+pub use csv::{CsvError, DecimalMark, parse_csv};
 pub use gaussian::Gaussian;
 pub use overlap::overlap;
 pub use samples::{NoiseSample, NoiseSamples};

@@ -4,7 +4,7 @@ use super::distribution::DistributionParts;
 use super::values::{count, symmetric, vector};
 use crate::linear_algebra::{Definiteness, ExactMatrix};
 use crate::memory::Need;
-use crate::noise::{CsvError, Gaussian, NoiseSamples, parse_csv};
+use crate::noise::{CsvError, DecimalMark, Gaussian, NoiseSamples, parse_csv};
 use crate::statistics::departures;
 use crate::system::LinearSystem;
 use crate::{Diagnostic, Warning};
@@ -38,7 +38,7 @@ pub struct GivenSamples {
     pub of: SampleKind,
 }
 
-/// A CSV file of samples without header, one sample of `n` numbers per line.
+/// A CSV file of samples, one of `n` numbers per line; see [`parse_csv`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct SamplesFile {
     /// The file's name as the user gave it.
@@ -47,6 +47,8 @@ pub struct SamplesFile {
     pub path: PathBuf,
     /// What one sample is the noise of.
     pub of: SampleKind,
+    /// What separates whole numbers from decimals in it.
+    pub decimal: DecimalMark,
 }
 
 /// Samples that are drawn: the same for the same seed, on every machine.
@@ -264,8 +266,8 @@ impl SamplesFile {
             Diagnostic::at("/noise/samples/file", found, "a readable CSV file")
                 .remedy("Relative paths start at the directory of the model file.")
         })?;
-        let read =
-            parse_csv(&text, system.state_dimension()).map_err(|error| malformed(&error).in_file(&name))?;
+        let read = parse_csv(&text, system.state_dimension(), self.decimal)
+            .map_err(|error| malformed(&error).in_file(&name))?;
         let origin = NoiseOrigin::File { name: self.name.clone(), text };
         let grouped = grouped(read, self.of, (system, d), ("", &name), origin);
         grouped.map_err(|error| error.in_file(&name))
@@ -282,9 +284,15 @@ fn malformed(error: &CsvError) -> Diagnostic {
         CsvError::Number { line, column, found } => {
             (format!("line {line}, column {column}"), format!("\"{found}\""), "a finite number".to_owned())
         }
+        CsvError::DecimalComma { line, column, found } => {
+            let expected = "a number with a decimal point".to_owned();
+            let place = format!("line {line}, column {column}");
+            return Diagnostic::at(place, format!("\"{found}\""), expected)
+                .remedy("If commas are where decimals begin, say so: \"decimal\": \",\" in /noise/samples.");
+        }
         CsvError::Empty => (String::new(), "no samples".to_owned(), "one sample per line".to_owned()),
     };
-    let remedy = "The file has no header; numbers are separated by commas. Correct or remove the line.";
+    let remedy = "Numbers are separated by commas or semicolons; only the first line may have names. Correct or remove the line.";
     Diagnostic::at(place, found, expected).remedy(remedy)
 }
 

@@ -12,7 +12,7 @@ const MOST_CELLS: u64 = 300_000;
 const MOST_BYTES: u64 = 3_000_000;
 
 /// The most bytes of everything that is embedded.
-const MOST_EMBEDDED: usize = 3_800_000;
+const MOST_EMBEDDED: usize = 3_400_000;
 
 /// The most points of all runs that are drawn.
 const MOST_POINTS: usize = 15_000;

@@ -36,7 +36,7 @@ pub(super) fn heat_map(scene: &Scene<'_>, view: &View) -> Plot {
         group("scale", &colour_bar(scene, &frame)),
     );
     Plot {
-        id,
+        id: id.to_owned(),
         width: 720.0,
         height: frame.height + 64.0,
         title: format!("{}: {} over {across} and {up}", scene.name, scene.value_name()),

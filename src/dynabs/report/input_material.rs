@@ -3,17 +3,21 @@
 use super::budget::drawn;
 use super::choice::{ViewChoice, ViewError};
 use super::material::{MOST_STEPS, MaterialOptions};
+use super::noise_plots::DRAWN;
 use super::numbers::tuple;
 use super::outlines::Outlined;
+use super::over_time::InputAxis;
 use super::palette::ColourScale;
 use super::scene::{Scene, SceneActions, faces, wanted_name};
 use super::values::StepValues;
 use super::view::View;
-use crate::controller::{Controller, ParameterChoice, Simulation};
+use crate::controller::{Controller, Noise, ParameterChoice, Simulation};
+use crate::geometry::Polytope;
 use crate::landing::LandingSolution;
 use crate::partition::CellId;
 use crate::problem::{InputNoise, InputProblem};
 use crate::run::InputRun;
+use crate::system::Variable;
 use crate::task::Safety;
 use imdp::numeric::to_f64;
 use imdp::progress::Progress;
@@ -85,6 +89,13 @@ impl<'a> InputMaterial<'a> {
             wanted_runs: options.drawn,
             trajectories,
             actions: Box::new(Applying { run, controller, noise_mean: mean(problem.noise(), states.len()) }),
+            inputs: inputs(problem),
+            noise_draws: match problem.noise() {
+                InputNoise::Sampled(samples) => {
+                    samples.noise.samples.iter().take(DRAWN).map(<[f64]>::to_vec).collect()
+                }
+                known => Noise::of_inputs(known).sample(DRAWN, options.seed),
+            },
             scale: ColourScale { from: 0.0, to: 1.0 },
             faces: faces(problem.grid()),
         };
@@ -105,6 +116,25 @@ impl<'a> InputMaterial<'a> {
     pub fn seen(self, choice: &ViewChoice) -> Result<Self, ViewError> {
         Ok(Self { view: View::chosen(&self.scene, choice)?, ..self })
     }
+}
+
+/// The inputs, with the sides of the smallest box around U, or of those that there are.
+fn inputs(problem: &InputProblem) -> Vec<InputAxis> {
+    let limits = problem.set().and_then(Polytope::bounding_box);
+    let listed = |j: usize| {
+        let values = || problem.inputs().iter().map(|input| to_f64(&input[j]));
+        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
+    };
+    let axis = |(j, input): (usize, &Variable)| InputAxis {
+        title: input
+            .unit
+            .as_ref()
+            .map_or_else(|| input.name.clone(), |unit| format!("{} [{unit}]", input.name)),
+        limits: Some(
+            limits.as_ref().map_or_else(|| listed(j), |sides| (to_f64(&sides[j].0), to_f64(&sides[j].1))),
+        ),
+    };
+    problem.mode().inputs().iter().enumerate().map(axis).collect()
 }
 
 /// The lengths of periodic coordinates.

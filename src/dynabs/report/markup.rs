@@ -29,7 +29,7 @@ pub(super) fn group(class: &str, content: &str) -> String {
 /// A plot.
 pub(super) struct Plot {
     /// Tells its ids from those of other plots.
-    pub(super) id: &'static str,
+    pub(super) id: String,
     pub(super) width: f64,
     pub(super) height: f64,
     pub(super) title: String,

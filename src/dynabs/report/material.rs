@@ -2,8 +2,10 @@
 
 use super::budget::drawn;
 use super::choice::{ViewChoice, ViewError};
+use super::noise_plots::DRAWN;
 use super::numbers::{subscripted, tuple};
 use super::outlines::Outlined;
+use super::over_time::InputAxis;
 use super::palette::ColourScale;
 use super::scene::{Scene, SceneActions, faces, wanted_name};
 use super::values::StepValues;
@@ -101,6 +103,11 @@ impl<'a> Material<'a> {
             wanted_runs: options.drawn,
             trajectories,
             actions: Box::new(Steering { run, controller, noise_mean: noise_mean.clone() }),
+            inputs: inputs(problem),
+            noise_draws: match problem.noise() {
+                PlantNoise::Sampled(noise) => noise.samples.iter().take(DRAWN).map(<[f64]>::to_vec).collect(),
+                known @ PlantNoise::Known(_) => Noise::of_plant(known).sample(DRAWN, options.seed),
+            },
             scale: ColourScale { from: 0.0, to: 1.0 },
             faces: faces(problem.grid()),
         };
@@ -120,6 +127,16 @@ impl<'a> Material<'a> {
     pub(super) fn problem(&self) -> &'a Problem {
         &self.run.problem
     }
+}
+
+/// The inputs, with the sides of the smallest box around U.
+fn inputs(problem: &Problem) -> Vec<InputAxis> {
+    let limits = problem.step_input().bounding_box();
+    let axis = |j: usize| InputAxis {
+        title: subscripted("u", j + 1),
+        limits: limits.as_ref().map(|sides| (to_f64(&sides[j].0), to_f64(&sides[j].1))),
+    };
+    (0..problem.step_input().dimension()).map(axis).collect()
 }
 
 /// Actions that steer to targets.

@@ -15,8 +15,10 @@ mod input_material;
 mod legend;
 mod markup;
 mod material;
+mod noise_plots;
 mod numbers;
 mod outlines;
+mod over_time;
 mod page;
 mod palette;
 mod paths;
@@ -39,6 +41,8 @@ pub use page::{ReportError, input_page, page};
 pub use results::{CROSS_CHECK, CrossCheckError, read_cross_checks};
 
 use heat_map::heat_map;
+use noise_plots::noise_plots;
+use over_time::over_time;
 use scene::Scene;
 use section::section;
 use view::View;
@@ -47,12 +51,13 @@ use view::View;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
     /// What to call it, without an extension.
-    pub name: &'static str,
+    pub name: String,
     /// The SVG.
     pub svg: String,
 }
 
-/// The plots of the page, as files: the value function with vector field and runs, and its cross-section.
+/// The plots of the page, as files: the value function with vector field and runs, its cross-section,
+/// states and inputs of the runs over time, the noise.
 pub fn pictures(material: &Material<'_>) -> Vec<Picture> {
     of_scene(&material.scene, &material.view)
 }
@@ -63,8 +68,11 @@ pub fn input_pictures(material: &InputMaterial<'_>) -> Vec<Picture> {
 }
 
 fn of_scene(scene: &Scene<'_>, view: &View) -> Vec<Picture> {
-    vec![
-        Picture { name: "value", svg: heat_map(scene, view).standalone() },
-        Picture { name: "section", svg: section(scene, view).standalone() },
-    ]
+    let mut pictures = vec![
+        Picture { name: "value".to_owned(), svg: heat_map(scene, view).standalone() },
+        Picture { name: "section".to_owned(), svg: section(scene, view).standalone() },
+    ];
+    let others = over_time(scene).into_iter().chain(noise_plots(scene, view));
+    pictures.extend(others.map(|plot| Picture { svg: plot.standalone(), name: plot.id }));
+    pictures
 }

@@ -1,6 +1,7 @@
 //! What plots show of a closed loop, whatever its actions are.
 
 use super::outlines::Outlined;
+use super::over_time::InputAxis;
 use super::palette::ColourScale;
 use super::values::StepValues;
 use crate::controller::{Controller, Tally, Trajectory};
@@ -52,6 +53,9 @@ pub(super) struct Scene<'a> {
     /// How many of them were to be drawn.
     pub(super) wanted_runs: u64,
     pub(super) trajectories: Vec<Trajectory>,
+    pub(super) inputs: Vec<InputAxis>,
+    /// Samples or draws of the noise of a grouped step.
+    pub(super) noise_draws: Vec<Vec<f64>>,
     pub(super) actions: Box<dyn SceneActions + 'a>,
     pub(super) scale: ColourScale,
     pub(super) faces: Vec<Vec<f64>>,

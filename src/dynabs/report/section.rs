@@ -31,7 +31,7 @@ pub(super) fn section(scene: &Scene<'_>, view: &View) -> Plot {
     );
     let at = view.at(scene, (0..scene.dimension()).filter(|&j| j != along));
     Plot {
-        id,
+        id: id.to_owned(),
         width: 720.0,
         height: 284.0,
         title: format!("{}: {} along {name}{at}", scene.name, scene.value_name()),

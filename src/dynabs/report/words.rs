@@ -1,6 +1,8 @@
 //! The guarantee in words.
 
-use super::markup::escape;
+use super::markup::{Plot, escape};
+use super::noise_plots::noise_plots;
+use super::view::View;
 
 use super::numbers::{short, tuple};
 use super::scene::Scene;
@@ -124,5 +126,44 @@ pub(super) fn about_runs(scene: &Scene<'_>) -> String {
         scene.trajectories.len(),
         tuple(&scene.start),
         scene.seed
+    )
+}
+
+/// States and inputs over time, and what the lines are.
+pub(super) fn over_time(scene: &Scene<'_>) -> String {
+    let runs = super::over_time::number_of_runs(scene);
+    if runs == 0 {
+        return "<p>No run is drawn.</p>\n".to_owned();
+    }
+    figure(
+        &super::over_time::over_time(scene),
+        &format!(
+            "The first {runs} simulated runs, step by step; those that did not satisfy the task, and the limits of U, are dashed."
+        ),
+    )
+}
+
+/// The noise beside cells, and what is drawn.
+pub(super) fn noise(scene: &Scene<'_>, view: &View) -> String {
+    let plots = noise_plots(scene, view);
+    if plots.is_empty() {
+        return "<p>There is no noise.</p>\n".to_owned();
+    }
+    let of = if scene.group_steps > 1 { "grouped step" } else { "step" };
+    figure(
+        &plots,
+        &format!(
+            "{} samples or draws of the noise of a {of}. Lines and bars are cells, one of which has 0 in its middle; where cells are \
+             too many for that there are no lines, and bars are wider.",
+            scene.noise_draws.len()
+        ),
+    )
+}
+
+/// Small plots side by side.
+fn figure(plots: &[Plot], caption: &str) -> String {
+    let plots: String = plots.iter().map(Plot::inline).collect();
+    format!(
+        "<figure><div class=\"small\">\n{plots}</div>\n<figcaption><p>{caption}</p></figcaption></figure>\n"
     )
 }

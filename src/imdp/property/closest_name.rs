@@ -1,7 +1,7 @@
 //! What a user who mistyped a name may have meant.
 
 /// The name with the fewest edits from `name`, if these are at most a third of its letters, and not all.
-pub(super) fn closest_name<'a>(name: &str, names: &'a [String]) -> Option<&'a str> {
+pub fn closest_name<'a>(name: &str, names: &'a [String]) -> Option<&'a str> {
     let allowed = name.len().div_ceil(3).min(name.len().saturating_sub(1));
     names
         .iter()

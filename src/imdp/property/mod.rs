@@ -56,6 +56,7 @@ mod tree;
 mod typing;
 mod unsupported;
 
+pub use closest_name::closest_name;
 pub use compound::Compound;
 pub use definitions::Definitions;
 pub use document::{Entry, Inquiry, parse_document};

@@ -39,6 +39,10 @@ pub struct SweepArguments {
     #[arg(long, conflicts_with_all = ["spec", "jobs"])]
     collect: bool,
 
+    /// Say which setting with at least this lower bound has the fewest transitions.
+    #[arg(long, value_name = "P", conflicts_with = "json")]
+    wanted: Option<f64>,
+
     /// Print one JSON list instead of a table.
     #[arg(long)]
     json: bool,
@@ -52,10 +56,11 @@ const AFTER_HELP: &str = "\
 The spec has the model file and, for JSON pointers into it, lists of values, of which every combination is one job:
   {\"model\": \"my.json\", \"settings\": {\"/input/upper\": [[60], [40]], \"/noise/count\": [1600, 6400]}}
 or a list of settings: \"settings\": [{\"/task/horizon\": 8}, {\"/task/horizon\": 16}]. All promises hold together, each with its
-part of the confidence; with \"together\": false each holds by itself, and none for the best of them.
+part of the confidence (settings that differ only in a plan that is followed and its U' need none); with \"together\": false each holds by itself, and none for the best of them.
 
 Examples:
   dynabs sweep spec.json -o out/sweep
+  dynabs sweep spec.json -o out/sweep --wanted 0.99
   dynabs sweep spec.json -o out/sweep --slurm && sbatch --time=1:00:00 out/sweep/sweep.sbatch
   dynabs sweep --collect -o out/sweep";
 
@@ -97,6 +102,9 @@ pub fn run(arguments: &SweepArguments) -> Result<ExitCode, CliError> {
         print_json(&table.to_json())?;
     } else {
         print(&table.to_markdown())?;
+        if let Some(wanted) = arguments.wanted {
+            print(&table.cheapest(wanted))?;
+        }
     }
     Ok(if table.is_complete() { ExitCode::SUCCESS } else { ExitCode::from(3) })
 }

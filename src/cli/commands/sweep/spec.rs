@@ -6,6 +6,7 @@ use dynabs::model_file::{Document, SetArgument};
 use imdp::files;
 use serde::Deserialize;
 use serde_json::{Map, Value};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// So many jobs at most: their number is in the names of their directories.
@@ -66,7 +67,7 @@ impl Sweep {
     fn try_settings(&mut self) -> Result<(), CliError> {
         let text = files::read_text(&self.model).map_err(|error| CliError::reading(&self.model, &error))?;
         let original = Document::parse(&self.model, &text)?;
-        let number = self.settings.len();
+        let number = self.settings_of_samples(&original)?;
         for (i, setting) in self.settings.iter_mut().enumerate() {
             let mut document = original.clone();
             document.name = format!("{} with setting {}", original.name, i + 1);
@@ -84,6 +85,32 @@ impl Sweep {
             }
         }
         Ok(())
+    }
+}
+
+/// What no event depends on where a plan is followed: settings that differ in nothing else share nothing.
+const FREE: [&str; 2] = ["/stabilizer/track", "/stabilizer/abstract_input"];
+
+impl Sweep {
+    /// How many settings have events of their own: those that differ in more than a plan and what is left beside it.
+    fn settings_of_samples(&self, original: &Document) -> Result<usize, CliError> {
+        let mut different: BTreeSet<String> = BTreeSet::new();
+        for setting in &self.settings {
+            let mut document = original.clone();
+            for (pointer, value) in setting {
+                document.set(&argument(pointer, value)?)?;
+            }
+            let follows_plan = document.value.pointer(FREE[0]).is_some();
+            let is_free =
+                |pointer: &String| follows_plan && FREE.iter().any(|free| pointer.starts_with(free));
+            let kept: Map<String, Value> = setting
+                .iter()
+                .filter(|(pointer, _)| !is_free(pointer))
+                .map(|(p, v)| (p.clone(), v.clone()))
+                .collect();
+            different.insert(format!("{follows_plan} {}", Value::Object(kept)));
+        }
+        Ok(different.len())
     }
 }
 

@@ -26,12 +26,13 @@ struct Line {
 }
 
 /// What is read from the result of a job: a name, and where it is.
-const FIGURES: [(&str, &str); 6] = [
+const FIGURES: [(&str, &str); 7] = [
     ("lower", "/results/0/lower"),
     ("upper", "/results/0/upper"),
     ("satisfied", "/results/0/satisfied"),
     ("states", "/states"),
     ("choices", "/choices"),
+    ("transitions", "/transitions"),
     ("seconds", "/results/0/seconds"),
 ];
 
@@ -100,6 +101,27 @@ impl Table {
         let _ = writeln!(text, "|{}", "---|".repeat(header.len()));
         self.lines.iter().for_each(|own| text += &line(&own.cells()));
         text
+    }
+
+    /// The setting with the fewest transitions of those that promise at least so much, in words.
+    pub(super) fn cheapest(&self, wanted: f64) -> String {
+        let promises = |line: &&Line| {
+            line.figure("/results/0/lower").and_then(Value::as_f64).is_some_and(|lower| lower >= wanted)
+        };
+        let size = |line: &&Line| line.figure("/transitions").and_then(Value::as_u64).unwrap_or(u64::MAX);
+        match self.lines.iter().filter(promises).min_by_key(size) {
+            Some(line) => {
+                let set = self.pointers.iter().zip(&line.values);
+                let set = set.filter_map(|(pointer, value)| Some(format!("{pointer}={}", value.as_ref()?)));
+                let set: Vec<String> = set.collect();
+                format!(
+                    "{} has the fewest transitions of all with at least {wanted}: {}\n",
+                    line.job,
+                    set.join(" ")
+                )
+            }
+            None => format!("none of these settings has at least {wanted}\n"),
+        }
     }
 
     /// As a list of objects.

@@ -3,7 +3,8 @@
 use crate::noise::known::Distribution;
 use crate::noise::{Gaussian, NoiseSamples};
 use crate::problem::{InputNoise, PlantNoise, SampledNoise, StepNoise};
-use rand::{Rng, RngExt};
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha12Rng;
 
 /// Where the noise of the closed loop comes from.
 #[derive(Clone, Debug)]
@@ -57,6 +58,17 @@ impl Noise {
     /// Whether every step has its own noise; otherwise that of a group comes with its last step.
     pub fn is_stepwise(&self) -> bool {
         !matches!(self, Self::GroupedSamples(_))
+    }
+
+    /// Draws `count` times the noise of one step, or of a group if only that is known.
+    pub fn sample(&self, count: usize, seed: u64) -> Vec<Vec<f64>> {
+        let mut rng = ChaCha12Rng::seed_from_u64(seed);
+        let draw = |_| {
+            let mut noise = vec![0.0; self.dimension()];
+            self.draw(&mut rng, &mut noise);
+            noise
+        };
+        (0..count).map(draw).collect()
     }
 
     /// Draws the noise of a group of steps, step after step.
