@@ -108,6 +108,16 @@ const MISTAKES: &[Mistake] = &[
     mistake(ROOM, "/probabilities/discard=1500", &["/noise", "2000 samples", "at least"]),
     mistake(ROOM, "/probabilities/discard=-1", &["/probabilities/discard", "-1"]),
     mistake(ROOM, "/noise/samples={\"file\":\"x.csv\",\"of\":\"step\"}", &["/noise", "expected {samples}"]),
+    mistake(
+        ONE_LAYER,
+        "/noise/samples/values=[[1,2]]",
+        &["/noise/samples", "both", "exactly one of file and values"],
+    ),
+    mistake(
+        ONE_LAYER,
+        "/noise/samples={\"values\":[[1,2],[3]],\"of\":\"step\"}",
+        &["/noise/samples/values/1", "1 numbers", "2, one per dimension"],
+    ),
     mistake(ONE_LAYER, "/noise/samples/file=\"noise/none.csv\"", &["/noise/samples/file", "none.csv"]),
     // Partition and task.
     mistake(ONE_LAYER, "/partition/cells=[41,0]", &["/partition/cells/1", "0", "at least one cell"]),

@@ -1,6 +1,7 @@
 //! What the command-line tools share: errors with exit codes, progress bars, tables.
 
 mod choices;
+mod colour;
 pub mod commands;
 mod crosscheck_table;
 mod error;

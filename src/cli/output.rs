@@ -1,6 +1,7 @@
 //! What goes to the terminal: nothing in it moves the cursor, and nothing panics when nobody listens.
 
 use super::CliError;
+use super::colour::for_stream;
 use serde::Serialize;
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -32,7 +33,7 @@ pub fn print(text: &str) -> Result<(), CliError> {
         return Ok(());
     }
     let mut out = io::stdout().lock();
-    match out.write_all(harmless(text).as_bytes()).and_then(|()| out.flush()) {
+    match out.write_all(for_stream(harmless(text), &out).as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(CliError::Failure(format!("stdout: {error}")))
         }
@@ -53,7 +54,7 @@ pub fn print_json(object: &impl Serialize) -> Result<(), CliError> {
 /// Writes text to stderr in the same way; if that is closed there is nobody to tell.
 pub fn warn(text: &str) {
     if !is_muted() {
-        let _ = io::stderr().write_all(harmless(text).as_bytes());
+        let _ = io::stderr().write_all(for_stream(harmless(text), &io::stderr()).as_bytes());
     }
 }
 

@@ -2,7 +2,7 @@
 
 use dynabs::abstraction::compile;
 use dynabs::abstraction::inputs::InputAbstraction;
-use dynabs::controller::{Controller, Decision, RunMemory};
+use dynabs::controller::{Controller, RunMemory};
 use dynabs::model_file::{Document, StatedProblem};
 use dynabs::partition::Grid;
 use imdp::numeric::to_f64;
@@ -104,7 +104,7 @@ impl Exported {
             for ((x, &k), memory) in round.states.iter().zip(&round.elapsed).zip(&mut memories) {
                 let mut u = vec![f64::NAN; self.controller.inputs()];
                 let decision = self.controller.control(x, u64::from(k), memory, &mut u);
-                answers.push((status(decision), u));
+                answers.push((decision.status().into(), u));
             }
         }
         answers
@@ -121,7 +121,8 @@ impl Exported {
             let mut input = vec![0.0; p];
             for (step, x) in run.iter().enumerate() {
                 if ended == 0 && step % d == 0 {
-                    ended = status(self.controller.control(x, (step / d) as u64, &mut memory, &mut u));
+                    ended =
+                        self.controller.control(x, (step / d) as u64, &mut memory, &mut u).status().into();
                 }
                 if ended == 0 {
                     input = u[step % d * p..(step % d + 1) * p].to_vec();
@@ -142,16 +143,5 @@ impl Looks {
             bytes.extend(round.elapsed.iter().flat_map(|k| k.to_le_bytes()));
         }
         bytes
-    }
-}
-
-fn status(decision: Decision) -> u32 {
-    match decision {
-        Decision::Act { .. } => 0,
-        Decision::Reached => 1,
-        Decision::Unsafe => 2,
-        Decision::Outside => 3,
-        Decision::NoAction => 4,
-        Decision::Over => 5,
     }
 }

@@ -20,3 +20,17 @@ pub enum Decision {
     /// The horizon has passed.
     Over,
 }
+
+impl Decision {
+    /// Its number in exported code: 0 where there are inputs.
+    pub fn status(self) -> u8 {
+        match self {
+            Self::Act { .. } => 0,
+            Self::Reached => 1,
+            Self::Unsafe => 2,
+            Self::Outside => 3,
+            Self::NoAction => 4,
+            Self::Over => 5,
+        }
+    }
+}

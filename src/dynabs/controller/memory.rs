@@ -22,6 +22,29 @@ impl RunMemory {
         }
     }
 
+    /// Its number in exported code, where a task has so many memories: that of an open memory; then those of a run that has
+    /// not begun, of one that has done its task, and of one that has failed.
+    pub fn number(self, memories: u32) -> u32 {
+        match self.0 {
+            Some(Standing::Open(memory)) => memory,
+            None => memories,
+            Some(Standing::Reached) => memories + 1,
+            Some(Standing::Failed) => memories + 2,
+        }
+    }
+
+    /// The memory with this [`number`](Self::number), if there is one.
+    pub fn of_number(number: u32, memories: u32) -> Option<Self> {
+        let standing = match number.checked_sub(memories) {
+            None => Some(Standing::Open(number)),
+            Some(0) => None,
+            Some(1) => Some(Standing::Reached),
+            Some(2) => Some(Standing::Failed),
+            Some(_) => return None,
+        };
+        Some(Self(standing))
+    }
+
     pub(super) fn fail(&mut self) {
         self.0 = Some(Standing::Failed);
     }

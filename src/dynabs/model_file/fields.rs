@@ -96,7 +96,7 @@ pub(super) enum ActionsSpec {
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct NoiseSpec {
-    /// A file of samples.
+    /// Samples, in a file or here.
     #[serde(default)]
     pub(super) samples: Option<SamplesSpec>,
     /// A normal distribution of the noise of one step; known, or drawn from if there is a count.
@@ -128,13 +128,17 @@ pub(super) enum IndependentSpec {
     Bands,
 }
 
-/// A file of noise samples.
+/// Noise samples: a file, or values.
 #[derive(Clone, Debug, serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SamplesSpec {
     /// A CSV file, one sample of n numbers per line, separated by commas or semicolons; the first line may have names instead.
     /// Relative to the model file.
-    pub(super) file: String,
+    #[serde(default)]
+    pub(super) file: Option<String>,
+    /// The samples themselves, n numbers each.
+    #[serde(default)]
+    pub(super) values: Option<Vec<Vec<f64>>>,
     /// "grouped" if a sample is the noise of d steps together, "step" if it is that of one step.
     pub(super) of: SampleKindSpec,
     /// What separates whole numbers from decimals: "." (the default) or ",", with semicolons between numbers.
@@ -155,7 +159,7 @@ pub(super) enum DecimalSpec {
     Comma,
 }
 
-/// What a sample in a file is the noise of.
+/// What a sample is the noise of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 #[schemars(rename = "SampleKind")]

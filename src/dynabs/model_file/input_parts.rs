@@ -36,7 +36,7 @@ pub(super) fn input_parts(file: ModelFile, directory: &Path) -> Result<InputPart
             format!("{n}, one per dimension of the state"),
         ));
     }
-    let noise = noise(file.noise, &file.probabilities, directory)?;
+    let noise = noise(file.noise, &file.probabilities, (directory, n))?;
     Ok(InputParts {
         name: file.name,
         mode,
@@ -57,7 +57,7 @@ pub(super) fn input_parts(file: ModelFile, directory: &Path) -> Result<InputPart
 fn noise(
     spec: NoiseSpec,
     asked: &ProbabilitiesSpec,
-    directory: &Path,
+    (directory, n): (&Path, usize),
 ) -> Result<InputNoiseParts, Diagnostic> {
     let is_sampled = spec.samples.is_some() || spec.count.is_some();
     if let (Some(_), false) = (spec.independent, is_sampled) {
@@ -70,7 +70,7 @@ fn noise(
         Some(IndependentSpec::Intervals) => Components::Intervals,
         Some(IndependentSpec::Bands) => Components::Bands,
     };
-    let source = parts::noise(NoiseSpec { independent: None, ..spec }, directory)?;
+    let source = parts::noise(NoiseSpec { independent: None, ..spec }, directory, n)?;
     // Where the noise is known, nothing is asked of samples.
     let probabilities = if is_sampled { probabilities(asked)? } else { Probabilities::default() };
     Ok(InputNoiseParts { source, components, probabilities })

@@ -13,8 +13,8 @@ use super::task_parts::task;
 use crate::Diagnostic;
 use crate::noise::DecimalMark;
 use crate::problem::{
-    CostParts, DrawnNoise, GaussianNoise, InputSet, LinearDynamics, NoiseSource, Partition, Probabilities,
-    Problem, ProblemBuilder, SampleKind, SamplesFile, TargetChoice,
+    CostParts, DrawnNoise, GaussianNoise, GivenSamples, InputSet, LinearDynamics, NoiseSource, Partition,
+    Probabilities, Problem, ProblemBuilder, SampleKind, SamplesFile, TargetChoice,
 };
 use std::path::Path;
 
@@ -40,6 +40,7 @@ pub(super) fn builder(file: ModelFile, directory: &Path) -> Result<ProblemBuilde
             Diagnostic::at("/partition", "periodic or resolution", "lower, upper and cells").remedy(INPUTS)
         );
     }
+    let n = file.partition.lower.len();
     let mut builder = Problem::builder(LinearDynamics { a, b, q }, input_set("/input", input)?)
         .name(file.name)
         .group_steps(group_steps)
@@ -48,7 +49,7 @@ pub(super) fn builder(file: ModelFile, directory: &Path) -> Result<ProblemBuilde
         .task(task(file.task, file.regions, directory)?)
         .costs(costs(file.costs))
         .probabilities(probabilities(&file.probabilities)?)
-        .noise(noise(file.noise, directory)?);
+        .noise(noise(file.noise, directory, n)?);
     if let Some(state) = file.initial_state {
         builder = builder.initial_state(state);
     }
@@ -105,26 +106,16 @@ fn targets(spec: TargetsSpec) -> TargetChoice {
     }
 }
 
-pub(super) fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Diagnostic> {
+pub(super) fn noise(spec: NoiseSpec, directory: &Path, n: usize) -> Result<NoiseSource, Diagnostic> {
     match spec {
         NoiseSpec {
-            samples: Some(SamplesSpec { file, of, decimal }),
+            samples: Some(given),
             gaussian: None,
             components: None,
             count: None,
             seed: None,
             independent: None,
-        } => {
-            let of = match of {
-                SampleKindSpec::Grouped => SampleKind::Grouped,
-                SampleKindSpec::Step => SampleKind::Step,
-            };
-            let decimal = match decimal {
-                DecimalSpec::Point => DecimalMark::Point,
-                DecimalSpec::Comma => DecimalMark::Comma,
-            };
-            Ok(SamplesFile { path: directory.join(&file), name: file, of, decimal }.into())
-        }
+        } => samples(given, directory, n),
         NoiseSpec {
             samples: None,
             gaussian: Some(GaussianSpec { mean, covariance }),
@@ -167,6 +158,36 @@ pub(super) fn noise(spec: NoiseSpec, directory: &Path) -> Result<NoiseSource, Di
             let found = if given.is_empty() { "nothing".to_owned() } else { given };
             let expected = "{samples}, {gaussian, count, seed} to draw some, or what is known: {gaussian} or {components}";
             Err(Diagnostic::at("/noise", found, expected))
+        }
+    }
+}
+
+/// Samples of a file, or those that stand here.
+fn samples(spec: SamplesSpec, directory: &Path, n: usize) -> Result<NoiseSource, Diagnostic> {
+    let of = match spec.of {
+        SampleKindSpec::Grouped => SampleKind::Grouped,
+        SampleKindSpec::Step => SampleKind::Step,
+    };
+    let decimal = match spec.decimal {
+        DecimalSpec::Point => DecimalMark::Point,
+        DecimalSpec::Comma => DecimalMark::Comma,
+    };
+    match (spec.file, spec.values) {
+        (Some(file), None) => Ok(SamplesFile { path: directory.join(&file), name: file, of, decimal }.into()),
+        (None, Some(_)) if decimal == DecimalMark::Comma => {
+            Err(Diagnostic::at("/noise/samples/decimal", "a field for files", "only values and of"))
+        }
+        (None, Some(values)) => {
+            if let Some(i) = values.iter().position(|sample| sample.len() != n) {
+                let found = format!("{} numbers", values[i].len());
+                let expected = format!("{n}, one per dimension of the state");
+                return Err(Diagnostic::at(format!("/noise/samples/values/{i}"), found, expected));
+            }
+            Ok(GivenSamples { values: values.concat(), of }.into())
+        }
+        (file, _) => {
+            let found = if file.is_some() { "both" } else { "neither" };
+            Err(Diagnostic::at("/noise/samples", found, "exactly one of file and values"))
         }
     }
 }
