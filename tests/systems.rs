@@ -115,8 +115,8 @@ fn modes_that_switch_by_chance_are_a_coordinate() {
         let range = images.range(images.row(0, 0), &[10, m], &mut scratch).unwrap();
         (range.first, range.last)
     };
-    // The cell [0.5, 0.75) of x: x⁺ in [0.25, 0.375], or [1, 1.5].
-    assert_eq!([image(0), image(2)], [(9, 9), (12, 14)]);
+    // The cell [0.5, 0.75) of x: x⁺ in [0.25, 0.375), or [1, 1.5).
+    assert_eq!([image(0), image(2)], [(9, 9), (12, 13)]);
 }
 
 #[test]

@@ -11,7 +11,7 @@ mod notice;
 mod share;
 
 pub use notice::Notice;
-pub use share::{Numbers, Share};
+pub use share::{Exchanged, Share};
 use std::cell::RefCell;
 use std::fmt;
 use std::rc::Rc;

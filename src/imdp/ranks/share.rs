@@ -19,24 +19,24 @@ pub struct Share {
 }
 
 /// Numbers that processes exchange.
-pub trait Numbers: Copy + Default {
+pub trait Exchanged: Copy + Default {
     /// [`Ranks::complete_doubles`] or [`Ranks::complete_integers`].
     fn complete(ranks: &dyn Ranks, array: &mut [Self], ends: &[usize]);
 }
 
-impl Numbers for f64 {
+impl Exchanged for f64 {
     fn complete(ranks: &dyn Ranks, array: &mut [Self], ends: &[usize]) {
         ranks.complete_doubles(array, ends);
     }
 }
 
-impl Numbers for u32 {
+impl Exchanged for u32 {
     fn complete(ranks: &dyn Ranks, array: &mut [Self], ends: &[usize]) {
         ranks.complete_integers(array, ends);
     }
 }
 
-impl Numbers for u16 {
+impl Exchanged for u16 {
     fn complete(ranks: &dyn Ranks, array: &mut [Self], ends: &[usize]) {
         let mut wide: Vec<u32> = array.iter().copied().map(u32::from).collect();
         ranks.complete_integers(&mut wide, ends);
@@ -64,21 +64,21 @@ impl Share {
     }
 
     /// Gets the numbers of the others, in an array with as many numbers for every item.
-    pub fn complete<T: Numbers>(&self, array: &mut [T]) {
+    pub fn complete<T: Exchanged>(&self, array: &mut [T]) {
         let items = self.ends.last().copied().unwrap_or(0).max(1);
         let per_item = array.len() / items;
         self.complete_with(array, |item| item * per_item);
     }
 
     /// Gets the numbers of the others, in an array where the numbers of item `i` begin at `start(i)`.
-    pub fn complete_with<T: Numbers>(&self, array: &mut [T], start: impl Fn(usize) -> usize) {
+    pub fn complete_with<T: Exchanged>(&self, array: &mut [T], start: impl Fn(usize) -> usize) {
         let Some(ranks) = &self.crew else { return };
         agree(&**ranks, Notice::Exchange { numbers: array.len() as u64 });
         T::complete(&**ranks, array, &self.ends.iter().map(|&end| start(end)).collect::<Vec<_>>());
     }
 
     /// What all processes have found, one after the other.
-    pub fn join<T: Numbers>(&self, own: Vec<T>) -> Vec<T> {
+    pub fn join<T: Exchanged>(&self, own: Vec<T>) -> Vec<T> {
         let Some(ranks) = &self.crew else { return own };
         let notices = ranks.notices(Notice::Exchange { numbers: own.len() as u64 });
         let mut ends = Vec::with_capacity(notices.len());
