@@ -6,8 +6,12 @@ use super::error::Fault;
 use super::exact_sum::ExactSum;
 use super::text::Cursor;
 
-/// The longest number accepted; the exact value of every double is shorter.
-const LONGEST: usize = 1100;
+/// The longest mantissa accepted; the exact value of every double is shorter, and so is what stands for a fraction.
+pub(super) const LONGEST: usize = 1108;
+
+/// The longest exponent accepted, with its letter. Mantissas have a limit of their own: what is written of a number has no more
+/// digits than what was read, but perhaps an exponent.
+pub(super) const LONGEST_EXPONENT: usize = 24;
 
 const POWERS: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
@@ -76,6 +80,7 @@ pub(crate) fn read_decimal(cursor: &mut Cursor<'_>) -> Result<Decimal, Box<Fault
 fn read_long_decimal(cursor: &mut Cursor<'_>, mut at: usize) -> Result<Decimal, Box<Fault>> {
     let text = cursor.rest();
     let is_zero = !text[..at].iter().any(|byte| matches!(byte, b'1'..=b'9'));
+    let mantissa = at;
     if matches!(text.get(at), Some(b'e' | b'E')) {
         at += 1;
         at += usize::from(matches!(text.get(at), Some(b'+' | b'-')));
@@ -85,8 +90,9 @@ fn read_long_decimal(cursor: &mut Cursor<'_>, mut at: usize) -> Result<Decimal, 
         }
         at += digits;
     }
-    if at > LONGEST {
-        return Err(cursor.fault_here(format!("a number of at most {LONGEST} characters")));
+    if mantissa > LONGEST || at - mantissa > LONGEST_EXPONENT {
+        let expected = format!("at most {LONGEST} characters and {LONGEST_EXPONENT} more for the exponent");
+        return Err(cursor.fault_here(expected));
     }
     let parsed = std::str::from_utf8(&text[..at]).ok().and_then(|text| text.parse::<f64>().ok());
     let value = parsed.ok_or_else(|| not_a_probability(cursor))?;
@@ -139,6 +145,18 @@ mod tests {
         }
         assert!(read("-0.5").unwrap_err().contains("negative"));
         assert!(read("1e-400").unwrap_err().contains("from 0"));
+    }
+
+    /// A number of many places is written with an exponent, which makes it longer.
+    #[test]
+    fn what_is_written_of_the_longest_is_read() {
+        let text = format!("0.{}", "9".repeat(LONGEST - 2));
+        let exact = Exact::of(text.as_bytes(), read(&text).unwrap()).unwrap();
+        let written = exact.to_string();
+        assert!(written.contains("e-"), "{written}");
+        assert_eq!(read(&written), read(&text));
+        assert!(read(&format!("{text}9")).unwrap_err().contains("at most 1108 characters"));
+        assert!(read(&format!("0e-{}", "9".repeat(LONGEST_EXPONENT))).unwrap_err().contains("24 more"));
     }
 
     proptest! {

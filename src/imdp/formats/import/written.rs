@@ -1,5 +1,6 @@
 //! Numbers as people write them, brought into the one form that is read exactly.
 
+use super::decimal::{LONGEST, LONGEST_EXPONENT};
 use crate::numeric::Rational;
 use num_bigint::BigInt;
 use num_traits::{Pow, Signed, Zero};
@@ -7,8 +8,8 @@ use num_traits::{Pow, Signed, Zero};
 /// How many digits stand for a fraction that no decimal equals; it is enclosed by two of them.
 const DIGITS: u32 = 40;
 
-/// More digits than this are no number that anyone wrote.
-const LONGEST: usize = 1100;
+/// The most places of an exact decimal; other fractions are enclosed.
+const MOST_PLACES: u32 = 1100;
 
 /// A number between two decimals, which are the same unless it is a fraction like 1/3.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,7 +23,7 @@ pub(in crate::formats) struct Written {
 /// Reads `.4`, `+0.4`, `4.`, `2/5`, `1e-3` as decimals that start with a digit; `None` for anything else.
 pub(in crate::formats) fn read_written(text: &[u8]) -> Option<Written> {
     let text = std::str::from_utf8(text).ok()?.trim_ascii();
-    if text.len() > LONGEST {
+    if text.len() > LONGEST + LONGEST_EXPONENT {
         return None;
     }
     match text.split_once('/') {
@@ -87,7 +88,7 @@ pub(in crate::formats) fn enclose(number: &Rational) -> Written {
     let mut rest = number.denom().clone();
     let mut places = [0u32; 2];
     for (prime, places) in [2u8, 5].into_iter().zip(&mut places) {
-        while (&rest % prime).is_zero() && *places <= LONGEST as u32 {
+        while (&rest % prime).is_zero() && *places <= MOST_PLACES {
             rest /= prime;
             *places += 1;
         }
