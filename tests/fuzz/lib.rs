@@ -11,7 +11,7 @@ use dynabs::imdp::property::{Property, parse_properties, parse_property};
 use dynabs::imdp::solver::{Answer, SolverOptions, Status};
 use dynabs::imdp::verify;
 use dynabs::model_file::Document;
-use dynabs::noise::parse_csv;
+use dynabs::noise::{DecimalMark, parse_csv};
 use std::cell::OnceCell;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -131,13 +131,15 @@ pub fn model_file(data: &[u8]) {
     }
 }
 
-/// Noise samples; the first byte is their dimension.
+/// Noise samples; the first byte is their dimension, and how their numbers are written.
 pub fn csv(data: &[u8]) {
     let Some((&dimension, text)) = data.split_first() else { return };
     let Ok(text) = std::str::from_utf8(text) else { return };
-    if let Ok(samples) = parse_csv(text, usize::from(dimension % 8) + 1) {
+    let mark = if dimension & 8 == 0 { DecimalMark::Point } else { DecimalMark::Comma };
+    if let Ok(samples) = parse_csv(text, usize::from(dimension % 8) + 1, mark) {
         let written = samples.to_csv();
-        let again = parse_csv(&written, samples.dimension()).expect("samples are read as they were written");
+        let again = parse_csv(&written, samples.dimension(), DecimalMark::Point);
+        let again = again.expect("samples are read as they were written");
         assert_eq!(again, samples);
         assert!(samples.iter().flatten().all(|x| x.is_finite()));
     }
