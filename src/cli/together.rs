@@ -31,7 +31,9 @@ static EXCHANGED: [AtomicU64; 3] = [const { AtomicU64::new(0) }; 3];
 #[cfg(feature = "mpi")]
 pub(super) fn exchanged_since(start: std::time::Instant, bytes: usize) {
     let amounts = [start.elapsed().as_nanos() as u64, bytes as u64, 1];
-    EXCHANGED.iter().zip(amounts).for_each(|(total, more)| drop(total.fetch_add(more, Ordering::Relaxed)));
+    for (total, more) in EXCHANGED.iter().zip(amounts) {
+        total.fetch_add(more, Ordering::Relaxed);
+    }
 }
 
 /// What was exchanged and how long it took, for people; nothing where there is nobody to exchange it with.
