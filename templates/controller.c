@@ -208,7 +208,7 @@ static int contains(uint32_t region, const double *y)
         }
         u[i / {{ names.upper }}_INPUTS][i % {{ names.upper }}_INPUTS] = sum;
     }
-{% else %}    for (i = 0; i < {{ names.upper }}_INPUTS; ++i) {
+{% else %}    for (i = 0; i != {{ names.upper }}_INPUTS; ++i) { /* there may be none */
         double sum = nominal[action_of[entry - 1]][i];
         for (j = 0; j < {{ names.upper }}_STATES; ++j) {
             const double product = gain[i][j] * (y[j] - c[j]);

@@ -53,6 +53,20 @@ fn tube() -> Value {
     model
 }
 
+/// Nothing to decide: a system without an input.
+fn uncontrolled() -> Value {
+    let noise = json!({"gaussian": {"deviation": 0.4}});
+    json!({
+        "name": "uncontrolled",
+        "dynamics": {"A": [[0.9, 0.1], [0, 0.8]]},
+        "noise": {"components": [noise, noise]},
+        "actions": "inputs",
+        "partition": {"lower": [-3, -3], "upper": [3, 3], "cells": [12, 12]},
+        "task": {"type": "stay", "safe": [{"lower": [-2, -2], "upper": [2, 2]}], "horizon": 5},
+        "initial_state": [0, 0]
+    })
+}
+
 /// Every kind of law, memory and horizon.
 fn controllers() -> Vec<Exported> {
     vec![
@@ -71,6 +85,7 @@ fn controllers() -> Vec<Exported> {
             true,
         )),
         given(&tube()),
+        given(&uncontrolled()),
     ]
 }
 
