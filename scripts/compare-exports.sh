@@ -10,18 +10,20 @@ cd "$(dirname "$0")/.."
 : "${DYNABS_NUMPY:?expected a Python with NumPy and SciPy}" "${DYNABS_OCTAVE:?expected GNU Octave}"
 export DYNABS_NUMPY DYNABS_OCTAVE
 if [ $# = 0 ]; then
-    set -- $(ls models/*.json models/every_step/*.json models/predecessors/*.json models/benchmarks/*.json examples/tasks/*.json |
+    set -- $(ls models/*.json models/every_step/*.json models/tracking/*.json models/predecessors/*.json models/benchmarks/*.json \
+        examples/*/*.json |
         grep -v schema.json)
 fi
 test=$(cargo test --release --locked --test main --no-run --message-format=json | sed -n 's/.*"executable":"\([^"]*main-[^"]*\)".*/\1/p')
+said=$(mktemp)
+trap 'rm -f "$said"' EXIT
 different=0
 for model in "$@"; do
-    DYNABS_MODEL=$model "$test" --ignored --exact --nocapture exports::every_export_of_a_model 2>/tmp/compare-exports.$$ |
+    DYNABS_MODEL=$model "$test" --exact --nocapture exports::every_export_of_a_model 2>"$said" |
         grep "100,000 states" || {
         echo "$model: DIFFERENT, or not compared:"
-        grep -v "^ " /tmp/compare-exports.$$ | head -5
+        grep -v "^ " "$said" | head -5
         different=1
     }
 done
-rm -f /tmp/compare-exports.$$
 exit $different

@@ -1,7 +1,7 @@
 //! Tasks over named regions for actions that are targets: values, what the closed loop does.
 
 use crate::common::controllers::Loop;
-use crate::common::tasks::{DELIVERY, formula, sequence};
+use crate::common::tasks::{DELIVERY, formula, room, sequence};
 use dynabs::controller::export::{write_csv, write_json};
 use dynabs::controller::{Noise, Simulation};
 use dynabs::guarantee::Coverage;
@@ -11,23 +11,8 @@ use dynabs::task::{Aim, Safety};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// A package to be picked up at `a` and brought to `c` without meeting `b`. The faces of `a` and `b` cut cells, and `c` is a
-/// triangle.
 fn model(task: &Value) -> Value {
-    json!({
-        "name": "room",
-        "dynamics": {"A": [[0.9, 0], [0, 0.9]], "B": [[1, 0], [0, 1]]},
-        "noise": {"gaussian": {"mean": [0, 0], "covariance": [[0.01, 0], [0, 0.01]]}, "count": 4000, "seed": 3},
-        "input": {"lower": [-1, -1], "upper": [1, 1]},
-        "partition": {"lower": [-3, -3], "upper": [3, 3], "cells": [12, 12]},
-        "regions": {
-            "a": {"lower": [1.2, -1], "upper": [3, 1.2]},
-            "b": [{"lower": [-0.5, -2], "upper": [0.25, 0]}, {"lower": [2, 2], "upper": [3, 3]}],
-            "c": {"G": [[1, 1], [-1, 0], [0, -1]], "g": [-2.25, 3, 3]}
-        },
-        "task": task,
-        "initial_state": [-2, 2]
-    })
+    room(task, false)
 }
 
 fn stated(model: &Value) -> Result<Problem, String> {

@@ -2,7 +2,7 @@
 
 use crate::common::controllers::Loop;
 use crate::common::root;
-use crate::common::tasks::{DELIVERY, formula, sequence};
+use crate::common::tasks::{DELIVERY, formula, room, sequence};
 use dynabs::abstraction::inputs::InputAbstraction;
 use dynabs::controller::export::{write_csv, write_input_json};
 use dynabs::controller::{Controller, Decision, Noise, ParameterChoice, RunMemory, Simulation};
@@ -16,24 +16,10 @@ use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 
-/// A package to be picked up at `a` and brought to `c` without meeting `b`, in a small room. The faces of `a` cut cells, and
-/// `c` is a triangle.
 fn model(task: Value) -> Value {
-    let noise = json!({"gaussian": {"deviation": 0.4}});
-    json!({
-        "name": "room",
-        "dynamics": {"A": [[0.9, 0], [0, 0.9]], "B": [[1, 0], [0, 1]]},
-        "noise": {"components": [noise, noise]},
-        "input": {"lower": [-1, -1], "upper": [1, 1], "points": [3, 3]},
-        "partition": {"lower": [-3, -3], "upper": [3, 3], "cells": [12, 12], "resolution": [1, 1]},
-        "regions": {
-            "a": {"lower": [1.2, -1], "upper": [3, 1.2]},
-            "b": [{"lower": [-0.5, -2], "upper": [0.25, 0]}, {"lower": [2, 2], "upper": [3, 3]}],
-            "c": {"G": [[1, 1], [-1, 0], [0, -1]], "g": [-2.25, 3, 3]}
-        },
-        "task": task,
-        "initial_state": [-2, 2]
-    })
+    let mut model = room(&task, true);
+    model["partition"]["resolution"] = json!([1, 1]);
+    model
 }
 
 fn stated(task: Value) -> Result<InputProblem, String> {
