@@ -178,6 +178,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
     let problem = match document.stated()? {
         StatedProblem::Targets(problem) => *problem,
         StatedProblem::Inputs(problem) => {
+            ranks::require_same(&(arguments, &problem));
             let output = arguments.output.as_deref().filter(|_| !arguments.dry_run);
             let wanted = compile_inputs::Wanted {
                 output: output.map(|output| (output, write_options(arguments))),
@@ -201,6 +202,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
                 .to_owned(),
         ));
     }
+    ranks::require_same(&(arguments, &problem));
     let mut phases = vec![("model file", start.elapsed())];
 
     let mut abstraction =
