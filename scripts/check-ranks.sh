@@ -47,6 +47,14 @@ code=0
 ranks 2 "$bin/dynabs-check" verify "$scratch/1/targets.certificate" "$scratch/1/targets" 2>"$scratch/errors" || code=$?
 [ "$code" = 2 ] || fail "found exit code $code for a command that is not shared; expected 2"
 
+# One of them has another file: nothing is computed.
+code=0
+mpirun -n 1 "$bin/dynabs-compile" models/room_temperature.json --dry-run : \
+    -n 1 "$bin/dynabs-compile" models/room_temperature.json --dry-run --seed 7 >"$scratch/printed" 2>"$scratch/errors" || code=$?
+[ "$code" = 4 ] || fail "found exit code $code for processes with different input; expected 4: $(cat "$scratch/errors")"
+grep -q '^error: found processes that have read different input' "$scratch/errors" ||
+    fail "found no word of different input: $(cat "$scratch/errors")"
+
 # One of them lacks memory: it says so, and all end.
 limited() { if [ "$OMPI_COMM_WORLD_RANK" = 1 ]; then exec "$@" --memory 1M; else exec "$@"; fi; }
 export -f limited

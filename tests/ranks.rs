@@ -7,19 +7,47 @@ use dynabs::landing::LandingSolution;
 use dynabs::model_file::{Document, StatedProblem};
 use dynabs::run::solution_options;
 use imdp::property::Property;
-use imdp::ranks::{Notice, Ranks, join, leave};
+use imdp::ranks::{Notice, Ranks, join, leave, require_same};
 use imdp::solver::{Answer, SolverOptions};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::rc::Rc;
-use std::sync::{Arc, Barrier, Mutex};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex};
 
 /// Where the threads of a crew put what they send.
 #[derive(Debug)]
 struct Table {
-    barrier: Barrier,
+    meeting: Mutex<Meeting>,
+    moved: Condvar,
     words: Vec<Mutex<Vec<u64>>>,
+    /// How many numbers of loops were exchanged.
+    numbers: AtomicUsize,
+}
+
+/// A barrier that nobody waits at for a thread that has panicked.
+#[derive(Debug, Default)]
+struct Meeting {
+    here: usize,
+    rounds: usize,
+    broken: bool,
+}
+
+impl Table {
+    fn wait(&self) {
+        let mut meeting = self.meeting.lock().unwrap();
+        meeting.here += 1;
+        if meeting.here == self.words.len() {
+            (meeting.here, meeting.rounds) = (0, meeting.rounds + 1);
+            self.moved.notify_all();
+            return;
+        }
+        let round = meeting.rounds;
+        let apart = |meeting: &mut Meeting| meeting.rounds == round && !meeting.broken;
+        let broken = self.moved.wait_while(meeting, apart).unwrap().rounds == round;
+        assert!(!broken, "another thread has panicked");
+    }
 }
 
 #[derive(Debug)]
@@ -28,19 +56,29 @@ struct ThreadRank {
     table: Arc<Table>,
 }
 
+impl Drop for ThreadRank {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.table.meeting.lock().unwrap().broken = true;
+            self.table.moved.notify_all();
+        }
+    }
+}
+
 impl ThreadRank {
     /// What every thread sent.
     fn exchange(&self, own: Vec<u64>) -> Vec<Vec<u64>> {
         *self.table.words[self.rank].lock().unwrap() = own;
-        self.table.barrier.wait();
+        self.table.wait();
         let all = self.table.words.iter().map(|words| words.lock().unwrap().clone()).collect();
-        self.table.barrier.wait();
+        self.table.wait();
         all
     }
 
     fn complete<T: Copy>(&self, array: &mut [T], ends: &[usize], word: fn(T) -> u64, number: fn(u64) -> T) {
         let begin = if self.rank == 0 { 0 } else { ends[self.rank - 1] };
-        let own = array[begin..ends[self.rank]].iter().map(|&number| word(number)).collect();
+        let own: Vec<u64> = array[begin..ends[self.rank]].iter().map(|&number| word(number)).collect();
+        self.table.numbers.fetch_add(own.len(), Ordering::Relaxed);
         let all = self.exchange(own);
         assert_eq!(all.iter().map(Vec::len).sum::<usize>(), array.len());
         array.iter_mut().zip(all.into_iter().flatten()).for_each(|(place, word)| *place = number(word));
@@ -73,35 +111,39 @@ impl Ranks for ThreadRank {
     }
 }
 
-/// Does the same in so many threads that share their work.
-fn together<T: Send>(size: usize, work: impl Fn() -> T + Sync) -> Vec<T> {
-    let table =
-        Arc::new(Table { barrier: Barrier::new(size), words: (0..size).map(|_| Mutex::default()).collect() });
-    std::thread::scope(|scope| {
+/// Does the same in so many threads that share their work; each is told its number.
+fn together<T: Send>(size: usize, work: impl Fn(usize) -> T + Sync) -> Vec<std::thread::Result<T>> {
+    let table = Arc::new(Table {
+        meeting: Mutex::default(),
+        moved: Condvar::new(),
+        words: (0..size).map(|_| Mutex::default()).collect(),
+        numbers: AtomicUsize::new(0),
+    });
+    let results = std::thread::scope(|scope| {
         let start = |rank| {
             let (table, work) = (Arc::clone(&table), &work);
             scope.spawn(move || {
-                join(Rc::new(ThreadRank { rank, table: Arc::clone(&table) }));
-                let result = work();
+                join(Rc::new(ThreadRank { rank, table }));
+                let result = work(rank);
                 leave();
-                (result, table.words[rank].lock().unwrap().len())
+                result
             })
         };
         let threads: Vec<_> = (0..size).map(start).collect();
-        let finished = threads.into_iter().map(|thread| thread.join().unwrap());
-        let all: Vec<(T, usize)> = finished.collect();
-        assert!(all.iter().all(|(_, sent)| *sent > 0), "nothing was shared");
-        all.into_iter().map(|(result, _)| result).collect()
-    })
+        threads.into_iter().map(|thread| thread.join()).collect::<Vec<_>>()
+    });
+    let failed = results.iter().any(Result::is_err);
+    assert!(failed || table.numbers.load(Ordering::Relaxed) > 0, "nothing was shared");
+    results
 }
 
 /// Checks that crews of different sizes make what one thread makes.
 fn same<T: PartialEq + std::fmt::Debug + Send + Sync>(work: impl Fn() -> T + Sync) {
     let alone = work();
     for size in [2, 3] {
-        for (rank, shared) in together(size, &work).into_iter().enumerate() {
+        for (rank, shared) in together(size, |_| work()).into_iter().enumerate() {
             // Values are long: no use in printing them.
-            assert!(shared == alone, "rank {rank} of {size}");
+            assert!(shared.unwrap() == alone, "rank {rank} of {size}");
         }
     }
 }
@@ -176,4 +218,13 @@ fn stored_rows_are_shared() {
         };
         properties.map(answer)
     });
+}
+
+/// Files may differ from machine to machine: nothing is computed then.
+#[test]
+fn all_have_the_same_input() {
+    let word = |result: std::thread::Result<()>| *result.unwrap_err().downcast::<String>().unwrap();
+    let refusals: Vec<String> =
+        together(3, |rank| require_same(&("noise.csv", rank / 2))).into_iter().map(word).collect();
+    assert!(refusals.iter().any(|text| text.contains("they do not do the same: [Input")), "{refusals:?}");
 }

@@ -4,7 +4,9 @@ use crate::common::{abstraction, problem, reference_mode};
 use dynabs::abstraction::Abstraction;
 use dynabs::partition::{CellId, CellKind};
 use dynabs::problem::{Problem, TargetId};
+use imdp::model::{RowBuffer, RowId, StateId};
 use imdp::solver::{Answer, SolverOptions};
+use std::collections::BTreeSet;
 
 /// The least promised probability, and the most transitions that the published tool's model of it may have.
 struct Bar {
@@ -135,4 +137,24 @@ fn staying_is_planned_for() {
     );
     assert!(near.0 > all.0 - 0.02 && near.1 < all.1, "{all:?} {near:?}");
     assert_eq!(near, asked);
+}
+
+/// Events are about the same states whatever the plan is: where it leaves nothing to do is a place to land in, not a failure.
+#[test]
+fn cells_without_a_plan_are_states_still() {
+    let (horizon, track) = ("/task/horizon=1", r#"/stabilizer={"track":"auto"}"#);
+    let [all, near] =
+        [&[horizon][..], &[horizon, track]].map(|sets| abstraction("room_temperature", &owned(sets)));
+    assert_eq!(all.state_of_cell, near.state_of_cell);
+    let is_left_out = |cell: &usize| {
+        let ranges = |compiled: &Abstraction| compiled.ranges(CellId(*cell as u32)).len();
+        ranges(&all) > 0 && ranges(&near) == 0
+    };
+    let left_out: Vec<_> =
+        (0..all.state_of_cell.len()).filter(is_left_out).map(|cell| near.state_of_cell[cell]).collect();
+    let (rows, mut buffer) = (near.model.rows(), RowBuffer::default());
+    let successors =
+        (0..rows.len()).flat_map(|row| rows.row(RowId(row as u32), &mut buffer).successors.to_vec());
+    let reached: BTreeSet<StateId> = successors.collect();
+    assert!(left_out.iter().any(|state| reached.contains(state)), "{left_out:?} {reached:?}");
 }

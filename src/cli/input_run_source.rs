@@ -4,6 +4,7 @@ use super::{Bars, CliError};
 use dynabs::landing::LandingSolution;
 use dynabs::run::InputRun;
 use imdp::progress::Progress;
+use imdp::ranks;
 use imdp::solver::{SolverOptions, Status};
 use std::path::Path;
 
@@ -24,6 +25,7 @@ impl SolvedInputs {
         bars: &Bars,
     ) -> Result<Self, CliError> {
         let run = InputRun::open(directory)?;
+        ranks::require_same(&run.problem);
         let options = given.copied().unwrap_or_default();
         let options = SolverOptions { progress: bars, ..options };
         let solution = match given {

@@ -134,15 +134,17 @@ impl Ranks for World {
             Notice::End { failure } => Some(*failure),
             _ => None,
         });
-        let failure = failures.max();
+        let failure = failures.max().filter(|&code| code > 0);
         if failure.is_none() {
-            warn(
-                "error: found processes that no longer do the same; expected the same input on all machines\n",
-            );
+            let have_read = notices.iter().all(|notice| matches!(notice, Notice::Input { .. }));
+            let found = if have_read { "have read different input" } else { "no longer do the same" };
+            warn(&format!(
+                "error: found processes that {found}; expected the same program and the same files on all machines\n"
+            ));
         }
         // What was said is out before everybody is ended.
         self.communicator.all_gather_into(&0u64, &mut vec![0u64; self.size][..]);
-        self.communicator.abort(failure.filter(|&code| code > 0).unwrap_or(ASTRAY).into())
+        self.communicator.abort(failure.unwrap_or(ASTRAY).into())
     }
 }
 

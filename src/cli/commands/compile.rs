@@ -203,6 +203,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
     let problem = match document.stated()? {
         StatedProblem::Targets(problem) => *problem,
         StatedProblem::Inputs(problem) => {
+            ranks::require_same(&(arguments, &problem));
             let output = arguments.output.as_deref().filter(|_| !arguments.dry_run);
             let wanted = compile_inputs::Wanted {
                 output: output.map(|output| (output, write_options(arguments))),
@@ -226,6 +227,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
                 .to_owned(),
         ));
     }
+    ranks::require_same(&(arguments, &problem));
     let mut phases = vec![("model file", start.elapsed())];
 
     let mut abstraction =

@@ -83,9 +83,11 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
         return solve_inputs(arguments, &bars);
     }
     let (loaded, (mut questions, digests)) = load(&arguments.path, arguments.explicit, &bars, |loaded| {
-        let digests = if arguments.certificate.is_some() { loaded.digests()? } else { vec![] };
+        let is_told = arguments.certificate.is_some() || ranks::size() > 1;
+        let digests = if is_told { loaded.digests()? } else { vec![] };
         Ok((arguments.questions.read(loaded)?, digests))
     })?;
+    ranks::require_same(&(arguments, &questions, &digests));
     let reading = start.elapsed();
     if is_input_task {
         // A certificate is about the model of the directory: of its two bounds, the one that a controller guarantees.

@@ -21,8 +21,9 @@ const TARGET_BYTES: u64 = 96;
 /// Per range of enabled actions: in a list that grows and becomes that of the model.
 const RANGE_BYTES: u64 = 12;
 
-/// The same for ranges of which some are left out because of what is unsafe in between: in two such lists.
-const FILTERED_RANGE_BYTES: u64 = 24;
+/// The same for ranges of which some are left out because of what is unsafe in between, or which are gathered from other processes:
+/// in two such lists.
+const RANGE_TWICE_BYTES: u64 = 24;
 
 /// Per entry of a row, successor and bounds: in two models, and in the pieces that they are put together from.
 const ENTRY_BYTES: u64 = 60;
@@ -33,8 +34,8 @@ const SHIFTED_ROW_BYTES: u64 = 24;
 /// Per cell that is planned for: its values, what it steers to.
 const PLAN_CELL_BYTES: u64 = 40;
 
-/// Per target that is planned with: its cell, and how good it and its neighbours are.
-const PLAN_TARGET_BYTES: u64 = 160;
+/// Per target that is planned with, its cell; and how good it is, and the best of its neighbours on every level of them.
+const PLAN_TARGET_BYTES: [u64; 2] = [24, 8];
 
 /// Per memory and cell: its state, what landing there means, values.
 const PAIR_BYTES: u64 = 64;
@@ -56,15 +57,17 @@ impl Footprint {
         let (targets, memories) = (steering.targets.len() as u64, memories(problem));
         let need = |what, bytes, field| Need { what, bytes, field };
         let ranges = ranges(problem, steering).saturating_mul(memories);
-        let is_filtered = Hazards::in_between(problem).is_some();
-        let range_bytes = if is_filtered { FILTERED_RANGE_BYTES } else { RANGE_BYTES };
+        let is_twice = Hazards::in_between(problem).is_some() || imdp::ranks::size() > 1;
+        let range_bytes = if is_twice { RANGE_TWICE_BYTES } else { RANGE_BYTES };
         let mut needs = vec![
             Need::of_cells(grid),
             need("the targets", targets * TARGET_BYTES, field),
             need("the enabled actions", ranges.saturating_mul(range_bytes), field),
         ];
         if let Some(tracking) = problem.stabilizer().and_then(Stabilizer::tracking) {
-            let per_target = PLAN_TARGET_BYTES + 8 * tracking.abstract_input().offsets().len() as u64;
+            let [cell, worth] = PLAN_TARGET_BYTES;
+            let levels = u64::from(targets.max(1).ilog2()) + 1;
+            let per_target = cell + levels * worth + 8 * tracking.abstract_input().offsets().len() as u64;
             let bytes = u64::from(grid.num_cells()) * PLAN_CELL_BYTES + targets * per_target;
             needs.push(need("the plan", bytes, field));
         }

@@ -28,16 +28,23 @@ pub(super) struct Nominal<'a> {
     /// Per target, its cell, if that is in the partition.
     landing: Vec<Option<usize>>,
     patience: f64,
-    /// How many steps are looked at.
+    /// How many steps are looked at, at most.
     pub(super) steps: u64,
 }
 
 impl<'a> Nominal<'a> {
-    /// For these targets, with this patience, and a horizon of at most so many steps.
-    pub(super) fn new(problem: &'a Problem, targets: &Targets, patience: f64, most_steps: u64) -> Self {
+    /// For these targets, with this patience, and so many steps at most.
+    pub(super) fn new(problem: &'a Problem, targets: &Targets, patience: f64, steps: u64) -> Self {
         let landing = targets.ids().map(|target| landing(problem.grid(), targets, target)).collect();
-        let steps = problem.horizon().unwrap_or(most_steps).min(most_steps);
         Self { problem, landing, patience, steps }
+    }
+
+    /// How many numbers are looked at for values with these actions.
+    pub(super) fn work(&self, actions: &EnabledActions) -> u64 {
+        let per_cell = self.problem.grid().dimension() as u64 + 2;
+        let cells = u64::from(self.problem.grid().num_cells()).saturating_mul(per_cell);
+        let targets = self.landing.len() as u64 * (1 + Highest::levels_above(actions) as u64);
+        cells.saturating_add(targets + actions.ranges.len() as u64).saturating_mul(self.steps)
     }
 
     /// The value of every cell of the partition, with these actions enabled in `cells`.
@@ -115,11 +122,15 @@ struct Highest {
 }
 
 impl Highest {
+    /// How many levels there are above the numbers themselves.
+    fn levels_above(actions: &EnabledActions) -> usize {
+        actions.ranges.iter().map(|range| range.len()).max().map_or(0, |longest| longest.ilog2() as usize)
+    }
+
     /// For the ranges of some actions.
     fn new(numbers: Vec<f64>, actions: &EnabledActions) -> Self {
-        let longest = actions.ranges.iter().map(|range| range.len()).max().unwrap_or(1);
         let mut levels = vec![numbers];
-        for level in 1..=longest.ilog2() as usize {
+        for level in 1..=Self::levels_above(actions) {
             let (half, below) = (1 << (level - 1), &levels[level - 1]);
             let pairs = below.iter().zip(&below[half.min(below.len())..]);
             levels.push(pairs.map(|(a, b)| a.max(*b)).collect());

@@ -11,6 +11,7 @@ use crate::partition::{CellId, Grid};
 use crate::problem::{Problem, TargetId, Tracking};
 use imdp::model::RowRange;
 use imdp::progress::Progress;
+use rayon::prelude::*;
 
 /// What is left of a worth after one more step. Like nominal noise chosen for the spacecraft of the paper: the less they hurry,
 /// the wider a berth plans take, until noise has too many steps to do harm in.
@@ -36,21 +37,23 @@ impl Plan {
         progress: &dyn Progress,
     ) -> Self {
         let starts = actions.starts();
-        let ranges = |i: usize| &actions.ranges[starts[i]..starts[i + 1]];
-        let nominal = Nominal::new(problem, targets, PATIENCE, MOST_STEPS);
+        let steps = problem.horizon().unwrap_or(MOST_STEPS).min(MOST_STEPS);
+        let nominal = Nominal::new(problem, targets, PATIENCE, steps);
         progress.start("the plan", nominal.steps);
         let values = nominal.values(cells, actions, progress);
         progress.finish();
         let worth = nominal.worth(&values);
+        let best = |(i, cell): (usize, &CellId)| {
+            let rows = actions.ranges[starts[i]..starts[i + 1]].iter().copied().flat_map(RowRange::rows);
+            let best = rows.fold((0.0, None), |best, row| match worth[row.index()] {
+                more if more > best.0 => (more, Some(row)),
+                _ => best,
+            });
+            (*cell, best.1.map(|row| targets.original(TargetId::from_index(row.index()))))
+        };
+        let found: Vec<_> = cells.par_iter().enumerate().map(best).collect();
         let mut headings = vec![None; values.len()];
-        for (i, cell) in cells.iter().enumerate() {
-            let best =
-                ranges(i).iter().copied().flat_map(RowRange::rows).fold(None, |best, row| match best {
-                    Some((_, most)) if worth[row.index()] <= most => best,
-                    _ => Some((row, worth[row.index()])).filter(|(_, worth)| *worth > 0.0),
-                });
-            headings[cell.index()] = best.map(|(row, _)| targets.original(TargetId::from_index(row.index())));
-        }
+        found.into_iter().for_each(|(cell, heading)| headings[cell.index()] = heading);
         for (cell, point) in tracking.given() {
             headings[cell.index()] = nearest(problem.grid(), targets, point);
         }

@@ -2,29 +2,28 @@
 //!
 //! Rehearsals ([`FeedbackLaw::shares`]) ask whether cells can be kept, which says little about ways that lead against the drift.
 //! Where there is time for it, shares are compared by what they let expect: the probability of success with nominal noise
-//! ([`super::nominal`]). Samples have no part in it.
+//! ([`super::nominal`]), on average over the cells. Samples have no part in it; neither have the initial state and the horizon, which
+//! may be chosen when samples are known.
 
 use super::AbstractionError;
+use super::enabled::EnabledActions;
 use super::nominal::Nominal;
 use super::steering::{Steering, demands};
 use crate::partition::{CellId, CellKind};
 use crate::problem::{Problem, Stabilizer};
 use crate::system::{FeedbackLaw, Shares};
 
-/// Steps beyond this one are not looked at.
-const MOST_STEPS: u64 = 100;
+/// So many steps are looked at.
+const STEPS: u64 = 30;
 
 /// How many numbers may be looked at, in all comparisons,
-const MOST_WORK: u64 = 50_000_000;
+const MOST_WORK: u64 = 400_000_000;
 
 /// of which there must be so many at least to begin with them.
 const LEAST_COMPARISONS: u64 = 50;
 
 /// Where so much is expected by now, nothing better is looked for.
 const ENOUGH: f64 = 0.95;
-
-/// What all cells count beside that of the initial state: they show the way to it.
-const OF_ALL: f64 = 0.01;
 
 /// The law of a problem, and the conditions under which it is applied.
 pub(super) fn steering(problem: &Problem) -> Result<Steering, AbstractionError> {
@@ -41,25 +40,20 @@ fn better(problem: &Problem, shares: Shares, law: impl Fn(&Shares) -> Option<Fee
     let ordinary = problem.labels().iter().filter(|(_, kind)| *kind == CellKind::Ordinary);
     let cells: Vec<CellId> = ordinary.map(|(cell, _)| cell).collect();
     let Some(targets) = law(&shares).map(|law| Steering::new(problem, law).targets) else { return shares };
-    let nominal = Nominal::new(problem, &targets, 1.0, MOST_STEPS);
-    let per_step =
-        u64::from(problem.grid().num_cells()).saturating_mul(problem.grid().dimension() as u64 + 2);
-    let work_of_values = per_step.saturating_mul(nominal.steps);
-    if work_of_values.saturating_mul(LEAST_COMPARISONS) > MOST_WORK {
+    let nominal = Nominal::new(problem, &targets, 1.0, STEPS);
+    if nominal.work(&EnabledActions::default()).saturating_mul(LEAST_COMPARISONS) > MOST_WORK {
         return shares;
     }
     let mut left = MOST_WORK;
     shares.improved(|shares| {
         let Some(law) = law(shares) else { return Some(f64::NEG_INFINITY) };
         let actions = Steering::new(problem, law).enabled(problem, &cells, &());
-        let work = work_of_values + nominal.steps.saturating_mul(actions.ranges.len() as u64);
-        left = left.checked_sub(work)?;
+        left = left.checked_sub(nominal.work(&actions))?;
         let values = nominal.values(&cells, &actions, &());
         let mean = cells.iter().map(|cell| values[cell.index()]).sum::<f64>() / cells.len().max(1) as f64;
-        let start = problem.initial_cell().map_or(mean, |cell| values[cell.index()]);
-        if start >= ENOUGH {
+        if mean >= ENOUGH {
             left = 0;
         }
-        Some(start + OF_ALL * mean)
+        Some(mean)
     })
 }

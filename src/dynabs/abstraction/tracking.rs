@@ -8,9 +8,13 @@ use crate::partition::CellId;
 use crate::problem::TargetId;
 use crate::system::FeedbackLaw;
 use imdp::model::RowRange;
+use rayon::prelude::*;
 
 /// By which part of what is subtracted from each other deviations may be off: what the plan says is never left out.
 const RELAXED: f64 = 1e-9;
+
+/// Cells per parallel task.
+const CELLS_PER_TASK: usize = 256;
 
 /// How far targets are off a planned one, in terms of inputs.
 pub(super) struct Deviations {
@@ -53,25 +57,36 @@ impl Deviations {
         actions: &EnabledActions,
     ) -> EnabledActions {
         let starts = actions.starts();
-        let mut near = EnabledActions::default();
-        for (i, &cell) in cells.iter().enumerate() {
-            let before = near.ranges.len();
-            if let Some(planned) = plan.heading(cell) {
-                for range in &actions.ranges[starts[i]..starts[i + 1]] {
-                    let mut open: Option<RowRange> = None;
-                    for row in range.rows() {
-                        if self.are_small(targets.original(TargetId::from_index(row.index())), planned) {
-                            open = Some(RowRange { first: open.map_or(row, |run| run.first), last: row });
-                        } else {
-                            near.ranges.extend(open.take());
-                        }
+        let of_task = |(task, cells): (usize, &[CellId])| {
+            let mut near = EnabledActions::default();
+            for (i, &cell) in (task * CELLS_PER_TASK..).zip(cells) {
+                let before = near.ranges.len();
+                if let Some(planned) = plan.heading(cell) {
+                    for range in &actions.ranges[starts[i]..starts[i + 1]] {
+                        self.parts_near(*range, targets, planned, &mut near.ranges);
                     }
-                    near.ranges.extend(open);
                 }
+                near.ranges_per_cell.push((near.ranges.len() - before) as u32);
             }
-            near.ranges_per_cell.push((near.ranges.len() - before) as u32);
-        }
+            near
+        };
+        let parts: Vec<_> = cells.par_chunks(CELLS_PER_TASK).enumerate().map(of_task).collect();
+        let mut near = EnabledActions::default();
+        parts.into_iter().for_each(|part| near.append(part));
         near.ranges.shrink_to_fit();
         near
+    }
+
+    /// Appends the parts of a range of rows whose targets are near a planned one.
+    fn parts_near(&self, range: RowRange, targets: &Targets, planned: TargetId, near: &mut Vec<RowRange>) {
+        let mut open: Option<RowRange> = None;
+        for row in range.rows() {
+            if self.are_small(targets.original(TargetId::from_index(row.index())), planned) {
+                open = Some(RowRange { first: open.map_or(row, |run| run.first), last: row });
+            } else {
+                near.extend(open.take());
+            }
+        }
+        near.extend(open);
     }
 }

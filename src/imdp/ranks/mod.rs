@@ -7,9 +7,11 @@
 //! How they talk to each other is not known here: see [`Ranks`]. As threads are those of the ambient pool, a crew is that of
 //! the thread that [joined](join) it. Loops that run within other threads are not divided.
 
+mod input;
 mod notice;
 mod share;
 
+pub use input::require_same;
 pub use notice::Notice;
 pub use share::{Exchanged, Share};
 use std::cell::RefCell;

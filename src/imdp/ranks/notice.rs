@@ -3,6 +3,11 @@
 /// What a process is about to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Notice {
+    /// To work on an input with this digest.
+    Input {
+        /// Its first bits.
+        digest: u32,
+    },
     /// To exchange the parts of an array with so many numbers.
     Exchange {
         /// How many.
@@ -23,7 +28,7 @@ pub enum Notice {
 }
 
 /// The number of bits that tell notices apart.
-const KIND_BITS: u32 = 2;
+const KIND_BITS: u32 = 3;
 
 impl Notice {
     /// The notice as a number.
@@ -33,6 +38,7 @@ impl Notice {
             Self::Limit { reason } => (1, reason.into()),
             Self::Dismissed => (2, 0),
             Self::End { failure } => (3, failure.into()),
+            Self::Input { digest } => (4, digest.into()),
         };
         detail << KIND_BITS | kind
     }
@@ -44,7 +50,8 @@ impl Notice {
             0 => Self::Exchange { numbers: detail },
             1 => Self::Limit { reason: detail as u8 },
             2 => Self::Dismissed,
-            _ => Self::End { failure: detail as u8 },
+            3 => Self::End { failure: detail as u8 },
+            _ => Self::Input { digest: detail as u32 },
         }
     }
 }
@@ -56,7 +63,8 @@ mod tests {
     #[test]
     fn words_are_read_as_they_were_written() {
         let exchanges = [0, 7, 1 << 40].map(|numbers| Notice::Exchange { numbers });
-        let others = [Notice::Limit { reason: 3 }, Notice::Dismissed, Notice::End { failure: 4 }];
+        let input = Notice::Input { digest: u32::MAX };
+        let others = [Notice::Limit { reason: 3 }, Notice::Dismissed, Notice::End { failure: 4 }, input];
         for notice in exchanges.into_iter().chain(others) {
             assert_eq!(Notice::of_word(notice.word()), notice);
         }

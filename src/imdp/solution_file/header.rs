@@ -4,7 +4,7 @@ use crate::solver::Status;
 use serde::{Deserialize, Serialize};
 
 /// What the first line says it is.
-pub(super) const FORMAT: &str = "dynabs solution 1";
+pub(super) const FORMAT: &str = "dynabs solution 2";
 
 /// The first line.
 #[derive(Debug, Serialize, Deserialize)]

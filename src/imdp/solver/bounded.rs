@@ -81,8 +81,8 @@ struct Iteration<'a> {
     upper_rows: RangeOptimum,
     /// Whether to ask at some time which rows may be the best of some state.
     asks: bool,
-    /// Of lower and of upper bounds.
-    contenders: Option<[Contenders; 2]>,
+    /// Of lower and, if they are wanted, of upper bounds.
+    contenders: Option<Vec<Contenders>>,
     /// How much values have grown in the last step, at most.
     grown: f64,
     results: Vec<f64>,
@@ -131,8 +131,7 @@ impl<'a> Iteration<'a> {
             asks,
             // Before the first step all values are 0, and so is what any row is worth.
             contenders: asks_at_once.then(|| {
-                let none = Contenders::new(model, &vec![0.0; model.num_states()]);
-                [none.clone(), none]
+                vec![Contenders::new(model, &vec![0.0; model.num_states()]); 1 + usize::from(options.upper)]
             }),
             grown: f64::INFINITY,
             results: vec![],
@@ -223,13 +222,14 @@ impl<'a> Iteration<'a> {
             grown,
             ..
         } = self;
-        if let Some([below, above]) = contenders {
-            below.look(model, &sweep.states, lower, lower_rows);
-            if *wants_upper {
-                above.look(model, &sweep.states, upper, upper_rows);
+        let sides = [(&*lower, &mut *lower_rows), (&*upper, &mut *upper_rows)];
+        if let Some(contenders) = contenders {
+            for (contenders, (values, rows)) in contenders.iter_mut().zip(sides) {
+                contenders.look(model, &sweep.states, values, rows);
             }
         } else if *asks && *grown <= LITTLE_GROWTH {
-            *contenders = Some([Contenders::new(model, lower), Contenders::new(model, upper)]);
+            let wanted = sides.iter().take(1 + usize::from(*wants_upper));
+            *contenders = Some(wanted.map(|(values, _)| Contenders::new(model, values)).collect());
         }
         let wants = |side: usize, row: RowId| contenders.as_ref().is_none_or(|both| both[side].wants(row));
         if *wants_upper {

@@ -78,6 +78,11 @@ impl RowBlock {
         self.rows.first().map_or(0, |row| row.index())
     }
 
+    /// The place after its last row.
+    pub(super) fn end(&self) -> usize {
+        self.rows.last().map_or(0, |row| row.index() + 1)
+    }
+
     /// Gets ready to evaluate the rows.
     pub(super) fn prepare(&mut self, all: &RowSet, Workspace { buffer, .. }: &mut Workspace) {
         self.slacks = self.rows.iter().map(|&row| slack(all.row(row, buffer))).collect();
@@ -104,14 +109,18 @@ impl RowBlock {
                 continue;
             }
             let row = all.row(id, buffer);
-            // Successors are far apart in memory, so both of their values are fetched together.
-            let [one, other] = &mut *scratch;
-            one.values.resize(row.len(), 0.0);
-            other.values.resize(row.len(), 0.0);
-            let places = one.values.iter_mut().zip(&mut other.values);
-            for (successor, (one, other)) in row.successors.iter().zip(places) {
-                let values = &values[successor.index()];
-                (*one, *other) = (values[0], values[N - 1]);
+            let [one, other] = scratch.each_mut().map(|scratch| &mut scratch.values);
+            if N == 1 {
+                one.clear();
+                one.extend(row.successors.iter().map(|successor| values[successor.index()][0]));
+            } else {
+                // Successors are far apart in memory, so both of their values are fetched together.
+                one.resize(row.len(), 0.0);
+                other.resize(row.len(), 0.0);
+                for (successor, (one, other)) in row.successors.iter().zip(one.iter_mut().zip(other)) {
+                    let values = &values[successor.index()];
+                    (*one, *other) = (values[0], values[N - 1]);
+                }
             }
             for i in (0..N).filter(|&i| wanted[i]) {
                 let parts = (&mut *critical, &mut scratch[i]);

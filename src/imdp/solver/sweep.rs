@@ -78,7 +78,7 @@ impl<'a> Sweep<'a> {
         wanted: impl Fn(RowId) -> [bool; N] + Sync,
     ) {
         let (all, way) = (self.model.rows(), (self.players.nature, sides));
-        let (own, blocks) = (self.share.own(), self.blocks.len());
+        let own = self.share.own();
         // Blocks are in the order of their rows, so each has a stretch of the table to itself.
         let starts: Vec<usize> = self.blocks.iter().map(RowBlock::start).collect();
         let evaluate = |workspace: &mut Workspace, (block, out): (&mut RowBlock, [&mut [f64]; N])| {
@@ -104,10 +104,12 @@ impl<'a> Sweep<'a> {
         } else {
             own_blocks.collect::<Vec<_>>().into_par_iter().for_each_init(Workspace::default, evaluate);
         }
+        // What these rows are among: other parts of the model have stretches of their own.
+        let first = starts.first().copied().unwrap_or(0);
+        let end = self.blocks.last().map_or(first, RowBlock::end);
         for table in tables {
-            let rows = table.values().len();
-            let start = |block: usize| if block < blocks { starts[block] } else { rows };
-            self.share.complete_with(table.values_mut(), |block| if block == 0 { 0 } else { start(block) });
+            let start = |block: usize| starts.get(block).copied().unwrap_or(end) - first;
+            self.share.complete_with(&mut table.values_mut()[first..end], start);
             table.rebuild();
         }
     }
