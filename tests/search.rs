@@ -79,10 +79,15 @@ fn the_cheapest_is_found_and_what_costs_more_is_not_tried() {
     assert_eq!(found["chosen"]["lower"], best.unwrap()["lower"]);
     assert!(states(&found).contains(&"not needed"), "{found}");
     let chosen = best.unwrap()["transitions"].as_f64().unwrap();
-    for (one, other) in found["settings"].as_array().unwrap().iter().zip(everything["settings"].as_array().unwrap()) {
+    for (one, other) in
+        found["settings"].as_array().unwrap().iter().zip(everything["settings"].as_array().unwrap())
+    {
         // What was not tried costs no less, and nothing was tried that is dearer.
         assert_eq!(one["transitions"], other["transitions"]);
-        assert_eq!(one["state"] == "not needed", number(one, "transitions") >= chosen && one["job"] != found["chosen"]["job"]);
+        assert_eq!(
+            one["state"] == "not needed",
+            number(one, "transitions") >= chosen && one["job"] != found["chosen"]["job"]
+        );
     }
 
     // Every promise has its part, and the run is one like any other.
@@ -100,7 +105,8 @@ fn the_cheapest_is_found_and_what_costs_more_is_not_tried() {
 fn what_was_tried_is_not_tried_again_and_the_bytes_are_the_same() {
     let search = Search::of(&json!({"model": room(), "settings": settings(), "wanted": 0.95}));
     assert_eq!(search.found().0, 0);
-    let names = ["search.json", "table.csv", "trade-off.svg", "chosen/run/problem.json", "chosen/run/model.dynabs"];
+    let names =
+        ["search.json", "table.csv", "trade-off.svg", "chosen/run/problem.json", "chosen/run/model.dynabs"];
     let bytes = || names.map(|name| fs::read(search.out().join(name)).unwrap());
     let before = bytes();
     let time = |name: &str| fs::metadata(search.out().join(name)).unwrap().modified().unwrap();
@@ -120,7 +126,10 @@ fn what_was_tried_is_not_tried_again_and_the_bytes_are_the_same() {
 fn nothing_is_promised_that_no_setting_has() {
     let search = Search::of(&json!({"settings": {"/partition/cells": [[12], [24]]}, "wanted": 0.9999}));
     let (code, text) = search.run(&[room().to_str().unwrap()]);
-    assert!(code == 1 && text.contains("none of these settings has at least 0.9999; the best has 0."), "{text}");
+    assert!(
+        code == 1 && text.contains("none of these settings has at least 0.9999; the best has 0."),
+        "{text}"
+    );
     assert!(!search.out().join("chosen").exists());
 }
 
@@ -133,7 +142,8 @@ fn split_samples_are_looked_at_once_and_promise_once() {
     assert!(code == 0 && found["chosen"]["fresh_samples"] == true, "{found}");
     let job = format!("{}/job.json", found["chosen"]["job"].as_str().unwrap());
     let (looked, promised) = (drawn.read(&job), drawn.read("chosen/job.json"));
-    let noise = |job: &Value| ["/noise/count", "/noise/seed"].map(|pointer| job["settings"][pointer].as_u64());
+    let noise =
+        |job: &Value| ["/noise/count", "/noise/seed"].map(|pointer| job["settings"][pointer].as_u64());
     assert_eq!(noise(&looked), [Some(1000), Some(1)]);
     assert_eq!(noise(&promised), [Some(1000), Some(0)]);
     assert!(promised["settings"].get("/probabilities/sweep").is_none());
@@ -166,7 +176,7 @@ fn what_no_controller_can_do_is_not_tried() {
         "task": {"type": "stay", "horizon": 8}, "initial_state": [0.25],
     });
     let spec = json!({"model": "walk.json", "settings": {"/partition/cells": [[40], [80]], "/feedback": [null, {"narrow": 0.25}]},
-        "wanted": 0.999});
+        "wanted": 0.9999});
     let search = Search::of(&spec);
     fs::write(search.path("walk.json"), model.to_string()).unwrap();
     let (code, found) = search.found();
@@ -174,7 +184,12 @@ fn what_no_controller_can_do_is_not_tried() {
     assert_eq!(code, 1, "{found}");
     // With feedback other inputs are taken, so nothing is known of the finer grid.
     assert!(states[0] == "tried" && states[1] == "tried" && states[3] == "tried", "{found}");
-    assert!(states[2].starts_with("excluded: no controller exceeds 0.") && states[2].ends_with("(0001)"), "{found}");
+    assert!(
+        states[2].starts_with("excluded: no controller exceeds 0.") && states[2].ends_with("(0001)"),
+        "{found}"
+    );
+    // Nothing rests on samples, so there is nothing to share.
+    assert!(search.read("0001/job.json")["settings"].as_object().unwrap().len() == 2);
     assert!(found["settings"][2]["lower"].is_null() && found["settings"][2]["choices"].is_u64(), "{found}");
 }
 
@@ -202,13 +217,21 @@ fn mistakes_are_found_before_anything_is_tried() {
     let wrong = [
         (json!({"settings": {"/task/horizont": [1]}, "model": name}), vec![], "/task"),
         (json!({"settings": [], "model": name}), vec![], "at least one"),
-        (json!({"settings": [{}], "model": name, "wanted": 1.5}), vec![], "/wanted: found 1.5; expected a probability"),
+        (
+            json!({"settings": [{}], "model": name, "wanted": 1.5}),
+            vec![],
+            "/wanted: found 1.5; expected a probability",
+        ),
         (json!({"settings": [{}], "model": name, "cost": "money"}), vec![], "unknown variant `money`"),
         (json!({"settings": [{}], "model": name, "wnted": 0.5}), vec![], "unknown field `wnted`"),
         (json!({"settings": [{}]}), vec![], "/model: found no model"),
         (json!({"settings": [{}], "model": name}), vec![name], "/model: found a second one"),
         (json!({"settings": [{}], "model": "gone.json"}), vec![], "gone.json"),
-        (json!({"settings": {"/noise/count": [100, 200]}, "model": name, "samples": "split"}), vec![], "noise of its own"),
+        (
+            json!({"settings": {"/noise/count": [100, 200]}, "model": name, "samples": "split"}),
+            vec![],
+            "noise of its own",
+        ),
         (json!({"settings": [{}], "model": name}), vec!["--solve"], "cannot be used with"),
     ];
     for (spec, options, expected) in wrong {
@@ -223,7 +246,11 @@ fn mistakes_are_found_before_anything_is_tried() {
 fn the_schema_and_the_examples_are_up_to_date() {
     let output = Command::cargo_bin("dynabs-compile").unwrap().args(["--schema", "search"]).output().unwrap();
     let kept = fs::read_to_string(root().join("models/search.schema.json")).unwrap();
-    assert_eq!(String::from_utf8(output.stdout).unwrap(), kept, "dynabs-compile --schema search > models/search.schema.json");
+    assert_eq!(
+        String::from_utf8(output.stdout).unwrap(),
+        kept,
+        "dynabs-compile --schema search > models/search.schema.json"
+    );
     for entry in fs::read_dir(root().join("examples/search")).unwrap() {
         let path = entry.unwrap().path();
         let spec: Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();

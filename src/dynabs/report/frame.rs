@@ -61,7 +61,8 @@ impl Frame {
     /// Border, ticks, and names of the axes.
     pub(super) fn axes(&self, across: &str, up: &str) -> String {
         let label = |tick: f64| (tick, short(tick));
-        let marks = |scale: &Scale, count| ticks(scale.from, scale.to, count).into_iter().map(label).collect();
+        let marks =
+            |scale: &Scale, count| ticks(scale.from, scale.to, count).into_iter().map(label).collect();
         self.labelled((across, marks(&self.x, 7.0)), (up, marks(&self.y, 6.0)))
     }
 

@@ -53,7 +53,9 @@ impl TradeOff {
             width: frame.left + frame.width + 24.0,
             height: frame.height + 64.0,
             title: format!("{}: lower bound over {}", self.title, self.cost),
-            description: "One dot for every setting that was tried; the line is the best bound for at most so much.".into(),
+            description:
+                "One dot for every setting that was tried; the line is the best bound for at most so much."
+                    .into(),
             content,
         };
         plot.standalone()
@@ -62,8 +64,7 @@ impl TradeOff {
     /// From where to where costs go, as powers of ten, and round numbers between.
     fn decades(&self) -> ((f64, f64), Vec<(f64, String)>) {
         let powers = self.points.iter().map(|point| power(point.cost));
-        let (least, most) =
-            powers.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        let (least, most) = powers.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
         let (least, most) = if least <= most { (least, most) } else { (0.0, 1.0) };
         let (from, to) = ((least * 4.0 - 0.25).floor() / 4.0, (most * 4.0 + 0.25).ceil() / 4.0);
         let parts: &[f64] = if to - from > 3.0 { &[1.0] } else { &[1.0, 2.0, 5.0] };

@@ -50,8 +50,9 @@ impl Choice {
         let job = Job::at(below.join(CHOSEN), &sweep.model, setting)?;
         let result = seeker.result(&job, Purpose::WholeRun)?.map_err(CliError::Failure)?;
         let number = |of| figure(&result, of).and_then(Value::as_f64);
-        let lower = number(Figure::Lower)
-            .ok_or_else(|| CliError::Failure(format!("{}: it ended without a bound", job.directory.display())))?;
+        let lower = number(Figure::Lower).ok_or_else(|| {
+            CliError::Failure(format!("{}: it ended without a bound", job.directory.display()))
+        })?;
         Ok(Some(Self { place, lower, confidence: number(Figure::Confidence), is_fresh }))
     }
 }

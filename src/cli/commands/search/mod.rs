@@ -64,10 +64,24 @@ pub(super) fn search(request: &Request<'_>) -> Result<ExitCode, CliError> {
         }
     };
     let program = Program::this(request.subcommand, rayon::current_num_threads())?;
-    let seeker = Seeker { program: &program, cost: spec.cost, wanted: spec.wanted, together: is_together, tell: &tell };
+    let seeker = Seeker {
+        program: &program,
+        cost: spec.cost,
+        wanted: spec.wanted,
+        together: is_together,
+        tell: &tell,
+    };
     let candidates = seeker.seek(&sweep, jobs)?;
     let choice = Choice::make(&seeker, &sweep, &candidates, fresh, below)?;
-    let found = Found { name: sweep.name()?, own, sweep: &sweep, cost: spec.cost, wanted: spec.wanted, candidates: &candidates, choice: choice.as_ref() };
+    let found = Found {
+        name: sweep.name()?,
+        own,
+        sweep: &sweep,
+        cost: spec.cost,
+        wanted: spec.wanted,
+        candidates: &candidates,
+        choice: choice.as_ref(),
+    };
     found.write(below)?;
     match request.json {
         true => print_json(&found.to_json())?,

@@ -83,7 +83,9 @@ impl Seeker<'_> {
         for (number, (job, &extent)) in jobs.into_iter().zip(&sweep.extents).enumerate() {
             match self.least(&job, extent)? {
                 Ok(least) => open.push((least, number, job, extent)),
-                Err(failed) => ended.push((number, Candidate { job, extent, size: None, state: State::Failed(failed) })),
+                Err(failed) => {
+                    ended.push((number, Candidate { job, extent, size: None, state: State::Failed(failed) }))
+                }
             }
         }
         open.sort_by_key(|&(least, number, ..)| (least, number));
@@ -102,7 +104,8 @@ impl Seeker<'_> {
                     Ok(result) => {
                         size = self.cost.size(&result);
                         let number = |of| figure(&result, of).and_then(Value::as_f64);
-                        if let (Some(system), Some(upper), Some(wanted)) = (system, number(Figure::Upper), self.wanted)
+                        if let (Some(system), Some(upper), Some(wanted)) =
+                            (system, number(Figure::Upper), self.wanted)
                             && upper < wanted
                         {
                             ceilings.push((system, job.name(), upper));
@@ -115,7 +118,11 @@ impl Seeker<'_> {
                 },
             };
             if let State::Tried(Bound { lower, cost }) = state {
-                (self.tell)(&format!("{}: {lower:.6} from {cost} {}\n", job.name(), self.cost.words(extent.takes_inputs)));
+                (self.tell)(&format!(
+                    "{}: {lower:.6} from {cost} {}\n",
+                    job.name(),
+                    self.cost.words(extent.takes_inputs)
+                ));
                 if self.wanted.is_some_and(|wanted| lower >= wanted) {
                     cheapest = cheapest.min(cost);
                 }
@@ -156,7 +163,8 @@ impl Seeker<'_> {
         job: &Job,
         extent: Extent,
     ) -> Result<Option<Map<String, Value>>, CliError> {
-        let has_feedback = || Ok::<_, CliError>(sweep.document(&job.setting)?.value.pointer("/feedback").is_some());
+        let has_feedback =
+            || Ok::<_, CliError>(sweep.document(&job.setting)?.value.pointer("/feedback").is_some());
         if !self.together || !extent.takes_inputs || has_feedback()? {
             return Ok(None);
         }

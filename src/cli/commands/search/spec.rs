@@ -74,7 +74,8 @@ impl Spec {
         let text = files::read_text(path).map_err(|error| CliError::reading(path, &error))?;
         let name = path.display().to_string();
         let spec: Self = serde_json::from_str(&text).map_err(|error| {
-            let expected = "an object with \"settings\" and, if wanted, \"model\", \"wanted\", \"cost\" and \"samples\"";
+            let expected =
+                "an object with \"settings\" and, if wanted, \"model\", \"wanted\", \"cost\" and \"samples\"";
             Diagnostic::at("", error.to_string(), expected).in_file(&name)
         })?;
         if let Some(wanted) = spec.wanted.filter(|wanted| !(*wanted > 0.0 && *wanted <= 1.0)) {

@@ -28,7 +28,9 @@ pub(super) fn halves(
     if let Some(pointer) = settings.iter().flat_map(Map::keys).find(|pointer| pointer.starts_with("/noise")) {
         let expected = "the same samples for every setting, because the search splits them";
         let mistake = Diagnostic::at(format!("/settings{pointer}"), "noise of its own", expected);
-        return Err(mistake.remedy("Leave it out, or divide the confidence: \"samples\": \"divided\".").into());
+        return Err(mistake
+            .remedy("Leave it out, or divide the confidence: \"samples\": \"divided\".")
+            .into());
     }
     let stated = document.stated()?;
     let noise = match &stated {
@@ -36,7 +38,11 @@ pub(super) fn halves(
         StatedProblem::Inputs(problem) => problem.noise().samples().map(|samples| &samples.noise),
     };
     let noise = noise.ok_or_else(|| {
-        Diagnostic::at("/samples", "\"split\", where the noise is known", "\"divided\", for there are no samples to split")
+        Diagnostic::at(
+            "/samples",
+            "\"split\", where the noise is known",
+            "\"divided\", for there are no samples to split",
+        )
     })?;
     match &noise.of_one_step {
         StepNoise::Gaussian(_) => drawn(document),

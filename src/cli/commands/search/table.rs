@@ -74,7 +74,11 @@ impl Found<'_> {
 
     fn lines(&self) -> Vec<Vec<String>> {
         let pointers = self.pointers();
-        self.candidates.iter().enumerate().map(|(place, candidate)| self.line(&pointers, place, candidate)).collect()
+        self.candidates
+            .iter()
+            .enumerate()
+            .map(|(place, candidate)| self.line(&pointers, place, candidate))
+            .collect()
     }
 
     fn line(&self, pointers: &[&String], place: usize, candidate: &Candidate) -> Vec<String> {
@@ -107,7 +111,8 @@ impl Found<'_> {
     pub(super) fn to_json(&self) -> Value {
         let pointers = self.pointers();
         let object = |(place, candidate): (usize, &Candidate)| {
-            let setting = |&pointer: &&String| Some((pointer.clone(), candidate.job.setting.get(pointer)?.clone()));
+            let setting =
+                |&pointer: &&String| Some((pointer.clone(), candidate.job.setting.get(pointer)?.clone()));
             json!({
                 "job": candidate.job.name(),
                 "settings": pointers.iter().filter_map(setting).collect::<Map<String, Value>>(),
@@ -153,13 +158,18 @@ impl Found<'_> {
         let Some(choice) = self.choice else {
             let best = self.candidates.iter().filter_map(|one| Some((one.bound()?.lower, one.job.name())));
             let best = best.max_by(|(one, _), (other, _)| one.total_cmp(other));
-            let best = best.map_or(String::new(), |(lower, name)| format!("; the best has {lower:.6} ({name})"));
+            let best =
+                best.map_or(String::new(), |(lower, name)| format!("; the best has {lower:.6} ({name})"));
             return text + &format!("none of these settings has at least {wanted}{best}\n");
         };
         let chosen = &self.candidates[choice.place];
         let (name, words) = (chosen.job.name(), self.cost.words(chosen.extent.takes_inputs));
         let cost = chosen.bound().map_or(0, |bound| bound.cost);
-        text += &format!("chosen: {name}, {} {words}: at least {}", thousands(cost), lower_bound_text(choice.lower));
+        text += &format!(
+            "chosen: {name}, {} {words}: at least {}",
+            thousands(cost),
+            lower_bound_text(choice.lower)
+        );
         if let Some(confidence) = choice.confidence {
             text += &format!(", with confidence {confidence}");
         }

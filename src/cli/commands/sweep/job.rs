@@ -173,7 +173,8 @@ impl Job {
 
     /// What `compile` is called with, in the directory of the job.
     fn arguments(&self, purpose: Purpose) -> Vec<String> {
-        let sets = self.setting.iter().flat_map(|(pointer, value)| ["--set".to_owned(), text(pointer, value)]);
+        let sets =
+            self.setting.iter().flat_map(|(pointer, value)| ["--set".to_owned(), text(pointer, value)]);
         let options = purpose.options().iter().map(|&option| option.to_owned());
         std::iter::once(self.model.clone()).chain(options).chain(sets).collect()
     }

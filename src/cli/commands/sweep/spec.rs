@@ -144,10 +144,11 @@ impl Sweep {
             let mut document = original.clone();
             document.name = format!("{} with setting {}", original.name, i + 1);
             apply(&mut document, setting)?;
-            self.extents.push(Extent::new(&document.stated()?));
+            let extent = Extent::new(&document.stated()?);
+            self.extents.push(extent);
             // What the model says of other settings counts beside these; what a setting says of them all does not.
             let stated = settings_of(&document);
-            if self.together && number > 1 && stated == others {
+            if self.together && number > 1 && stated == others && extent.samples.is_some() {
                 let share = Value::from(stated.unwrap_or(1).saturating_mul(number as u64));
                 let (pointer, share) = match document.value.pointer(PROBABILITIES) {
                     Some(Value::Object(_)) => (SETTINGS_OF_SAMPLES, share),
