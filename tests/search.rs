@@ -251,6 +251,11 @@ fn the_schema_and_the_examples_are_up_to_date() {
         kept,
         "dynabs-compile --schema search > models/search.schema.json"
     );
+    let schema: Value = serde_json::from_str(&kept).unwrap();
+    let fields: Vec<&String> = schema["properties"].as_object().unwrap().keys().collect();
+    let (_, text) = Search::of(&json!({"settings": [{}], "wnted": 0.5})).run(&[]);
+    let listed: Vec<&str> = text.split('`').skip(3).step_by(2).collect();
+    assert_eq!(fields, listed, "{text}");
     for entry in fs::read_dir(root().join("examples/search")).unwrap() {
         let path = entry.unwrap().path();
         let spec: Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();

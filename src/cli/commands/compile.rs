@@ -168,7 +168,7 @@ pub(super) fn compile_or_init(
 pub(super) fn schema(of: SchemaName) -> String {
     match of {
         SchemaName::Model => json_schema(),
-        SchemaName::Search => search_schema(),
+        SchemaName::Search => search_schema().to_owned(),
     }
 }
 

@@ -2,12 +2,11 @@
 
 use crate::commands::sweep::figures::{Figure, figure};
 use crate::commands::sweep::spec::Extent;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 /// What a choice is to have least of.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Cost {
     /// The transitions of the model; where actions are inputs, its choices, each of which is one transition to the lattice that all

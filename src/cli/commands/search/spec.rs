@@ -5,15 +5,13 @@ use crate::CliError;
 use crate::commands::sweep::spec::settings;
 use dynabs::Diagnostic;
 use imdp::files;
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema, schema_for};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 use std::path::{Path, PathBuf};
 
 /// A search: the cheapest of many settings of one model with a wanted bound.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[schemars(rename = "Search")]
 pub(super) struct Spec {
     /// Where the JSON Schema of this file is; ignored.
     #[serde(rename = "$schema", default)]
@@ -28,11 +26,9 @@ pub(super) struct Spec {
     model: Option<PathBuf>,
     /// An object with a list of values for each JSON pointer into the model file, of which every combination is a setting; or a list
     /// of settings, each an object with a value for each pointer.
-    #[schemars(schema_with = "schema_of_settings")]
     settings: Value,
     /// The lower bound that is wanted. Without it every setting is tried and none chosen.
     #[serde(default)]
-    #[schemars(range(min = 0.0, max = 1.0))]
     pub(super) wanted: Option<f64>,
     /// What the choice is to have least of.
     #[serde(default)]
@@ -43,7 +39,7 @@ pub(super) struct Spec {
 }
 
 /// How samples are used to look for a setting and to promise something of the one that is found.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Samples {
     /// Every setting has all samples, and its part of the confidence: all promises hold together (the default).
@@ -53,16 +49,9 @@ pub(super) enum Samples {
     Split,
 }
 
-fn schema_of_settings(_: &mut SchemaGenerator) -> Schema {
-    json_schema!({"anyOf": [
-        {"type": "object", "additionalProperties": {"type": "array"}},
-        {"type": "array", "items": {"type": "object"}}
-    ]})
-}
-
-/// The JSON Schema of a spec, as pretty-printed JSON with a final newline.
-pub(in crate::commands) fn search_schema() -> String {
-    format!("{:#}\n", schema_for!(Spec).as_value())
+/// The JSON Schema of a spec.
+pub(in crate::commands) fn search_schema() -> &'static str {
+    include_str!("../../schemas/search.json")
 }
 
 impl Spec {
