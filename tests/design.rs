@@ -1,12 +1,14 @@
 //! Designs that are left to the tool: how inputs share what is to be done, how many steps become one.
 use crate::common::root;
 use dynabs::abstraction::compile;
+use dynabs::abstraction::inputs::InputAbstraction;
 use dynabs::controller::Controller;
-use dynabs::explain::{Reason, explain};
-use dynabs::model_file::Document;
+use dynabs::explain::{Reason, explain, explain_inputs};
+use dynabs::model_file::{Document, StatedProblem};
 use dynabs::problem::Problem;
 use imdp::solver::{Answer, SolverOptions};
 use std::fs;
+use std::path::Path;
 
 fn problem(name: &str, sets: &[&str]) -> Problem {
     let path = root().join(format!("tests/data/design/{name}.json"));
@@ -110,4 +112,75 @@ fn what_is_low_is_explained() {
     let weak = reasons(&["/input/upper=[1.2, 1.2]", "/initial_state=[16.5]", "/dynamics/group_steps=1"]);
     assert!(matches!(&weak[0], Reason::NothingAtStart { idle: 1.., .. }), "{weak:?}");
     assert!(matches!(reasons(&["/initial_state=null"])[0], Reason::NoStart { .. }));
+}
+
+/// The reasons of a small problem whose actions are inputs.
+fn input_reasons(sets: &[&str]) -> Vec<Reason> {
+    let walk = serde_json::json!({
+        "name": "walk", "dynamics": {"A": [[1]], "B": [[1]]}, "noise": {"components": [{"gaussian": {"deviation": 0.5}}]},
+        "input": {"lower": [-1], "upper": [1], "points": [3]}, "partition": {"lower": [-5], "upper": [5], "cells": [20]},
+        "task": {"goal": [{"lower": [3], "upper": [4]}], "horizon": 6}, "initial_state": [-1.25]
+    });
+    let mut document = Document::parse(Path::new("walk.json"), &walk.to_string()).unwrap();
+    sets.iter().for_each(|set| document.set(&set.parse().unwrap()).unwrap());
+    let StatedProblem::Inputs(problem) = document.stated().unwrap() else { panic!("inputs") };
+    let abstraction = InputAbstraction::new(&problem).unwrap();
+    let options = SolverOptions { policy: true, ..SolverOptions::default() };
+    let solution = abstraction.question().solve(&options);
+    let controller = Controller::of_inputs(&problem, &abstraction, &solution);
+    let explanation = explain_inputs(&document, &problem, &abstraction, &solution, &controller, &());
+    assert!(explanation.to_string().starts_with("why the bound is 0."), "{explanation}");
+    explanation.reasons
+}
+
+#[test]
+fn bounds_of_inputs_are_explained() {
+    let between = |reasons: &[Reason]| {
+        let found = reasons.iter().find_map(|reason| match reason {
+            Reason::Between { lower, upper, .. } => Some((*lower, *upper)),
+            _ => None,
+        });
+        found.unwrap()
+    };
+    let noiseless = |reasons: &[Reason]| {
+        let found = reasons.iter().find_map(|reason| match reason {
+            Reason::WithoutNoise { lower, upper } => Some((*lower, *upper)),
+            _ => None,
+        });
+        found.unwrap()
+    };
+    let reasons = input_reasons(&[]);
+    let (lower, upper) = between(&reasons);
+    assert!(noiseless(&reasons).0 <= noiseless(&reasons).1 && noiseless(&reasons).1 == 1.0);
+    let trials = reasons.iter().find_map(|reason| match reason {
+        Reason::Trials { trials } => Some(trials),
+        _ => None,
+    });
+    let trial = |field: &str| {
+        let found = trials.unwrap().iter().find(|trial| trial.change.starts_with(&format!("{field}=")));
+        found.unwrap_or_else(|| panic!("{field} {reasons:?}"))
+    };
+    // More inputs among which the old ones are can only do more; finer cells only know more.
+    assert!(trial("/input/points").upper >= upper && trial("/partition/cells").lower >= lower, "{reasons:?}");
+    assert!(trial("/partition/cells").upper <= upper + 1e-9, "{reasons:?}");
+    let Some(Reason::Losses { simulated, losses }) =
+        reasons.iter().find(|reason| matches!(reason, Reason::Losses { .. }))
+    else {
+        panic!("{reasons:?}")
+    };
+    assert!(lower <= simulated + 0.05 && *simulated <= upper + 0.05, "{lower} {simulated} {upper}");
+    assert!(losses.iter().any(|loss| loss.end == "run out of time"), "{reasons:?}");
+    assert!(
+        matches!(reasons.last(), Some(Reason::Noise { spreads }) if (spreads[0].deviation - 1.0).abs() < 0.1)
+    );
+    // What is changed as it says has the bounds that it says.
+    let change = &trial("/feedback").change;
+    let changed = between(&input_reasons(&[change]));
+    assert!((changed.0 - trial("/feedback").lower).abs() < 1e-3, "{changed:?}");
+
+    // No input leads far enough in two steps, with or without noise.
+    let far = input_reasons(&["/task/horizon=2"]);
+    assert_eq!(noiseless(&far), (0.0, 0.0), "{far:?}");
+    let text = far.iter().map(ToString::to_string).collect::<String>();
+    assert!(text.contains("without noise no controller with these inputs does it"), "{text}");
 }

@@ -1,5 +1,6 @@
 //! `dynabs-compile` for actions that are inputs.
 
+use super::explain::{HINT, are_soon_explained};
 use crate::input_summary::{InputResult, summary};
 use crate::pruning::pruned;
 use crate::resources::peak;
@@ -9,6 +10,7 @@ use crate::{Bars, CliError, print, warn};
 use dynabs::abstraction::CostError;
 use dynabs::abstraction::inputs::{InputAbstraction, InputEncoding, InputModel, InputsError};
 use dynabs::controller::Controller;
+use dynabs::explain::explain_inputs;
 use dynabs::landing::FlatModelError;
 use dynabs::model_file::Document;
 use dynabs::problem::InputProblem;
@@ -71,7 +73,7 @@ pub(super) fn compile_inputs(
         phases.push(("model", *time));
     }
     let solving = Instant::now();
-    let (mut kept, mut controller_bytes) = (None, None);
+    let (mut kept, mut controller_bytes, mut explanation) = (None, None, None);
     let result = if wanted.solve {
         let options = SolverOptions { progress: &**bars, ..SolverOptions::default() };
         let solution = abstraction.question().solve(&input_solution_options(problem, &options));
@@ -84,6 +86,14 @@ pub(super) fn compile_inputs(
         };
         if wanted.json {
             controller_bytes = Controller::of_inputs(problem, &abstraction, &solution).table_bytes().ok();
+        }
+        let is_low = result.satisfied == Some(false) || result.lower < 0.5;
+        if is_low && !are_soon_explained(&abstraction) {
+            manifest.warnings.push(HINT.to_owned());
+        } else if is_low && !wanted.quiet && !wanted.json {
+            let controller = Controller::of_inputs(problem, &abstraction, &solution);
+            explanation =
+                Some(explain_inputs(document, problem, &abstraction, &solution, &controller, &**bars));
         }
         kept = Some(solution.of_pairs());
         bars.finish();
@@ -145,6 +155,9 @@ pub(super) fn compile_inputs(
         }
         text += &result.as_ref().map_or(String::new(), |result| result.text(initial));
         print(&text)?;
+    }
+    if let Some(explanation) = explanation {
+        print(&explanation.to_string())?;
     }
     Ok(result.map_or(ExitCode::SUCCESS, |result| result.exit_code()))
 }

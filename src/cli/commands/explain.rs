@@ -1,10 +1,12 @@
 //! `dynabs-check explain`: why the bound of a run is low, and what to change.
 
-use crate::run_source::{Refined, refine};
+use crate::input_run_source::SolvedInputs;
+use crate::run_source::{Controlled, Refined};
 use crate::{Bars, CliError, print};
 use clap::Args;
 use dynabs::abstraction::Abstraction;
-use dynabs::explain::explain;
+use dynabs::abstraction::inputs::InputAbstraction;
+use dynabs::explain::{explain, explain_inputs};
 use imdp::progress::Progress;
 use imdp::property::Verdict;
 use imdp::solver::Answer;
@@ -33,8 +35,16 @@ pub struct ExplainArguments {
 /// [`CliError`], which knows its exit code.
 pub fn run(arguments: &ExplainArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
-    let Refined { run, answer, controller } = refine(&arguments.directory, &bars)?;
-    let explanation = explain(&run.problem, &run.abstraction, &answer, &controller, &*bars);
+    let explanation = match Controlled::open(&arguments.directory, &bars)? {
+        Controlled::Targets(refined) => {
+            let Refined { run, answer, controller } = *refined;
+            explain(&run.problem, &run.abstraction, &answer, &controller, &*bars)
+        }
+        Controlled::Inputs(solved, controller) => {
+            let SolvedInputs { run, solution } = *solved;
+            explain_inputs(&run.document, &run.problem, &run.abstraction, &solution, &controller, &*bars)
+        }
+    };
     if bars.is_interrupted() {
         return Err(CliError::Interrupted);
     }
@@ -58,6 +68,14 @@ pub(super) const HINT: &str =
 /// Whether a bound is low: it misses its threshold, or it is below one half.
 pub(super) fn is_low(answer: &Answer) -> bool {
     answer.verdict == Some(Verdict::Fails) || answer.lower < 0.5
+}
+
+/// Pairs of a cell and an input of models that are explained unasked: what changes bring is tried on larger ones.
+const FEW_PAIRS: usize = 20_000;
+
+/// The same, where actions are inputs and other models are solved to explain one.
+pub(super) fn are_soon_explained(abstraction: &InputAbstraction) -> bool {
+    abstraction.num_choices() <= FEW_PAIRS
 }
 
 /// Whether an explanation, which solves the model with other intervals, takes no longer than a look at the result.

@@ -1,28 +1,25 @@
 //! Where runs end that do not succeed, and how far noise reaches.
 
 use super::{Loss, Reason, Spread};
-use crate::controller::{Controller, End, Noise, Simulation};
-use crate::partition::GridAxis;
-use crate::problem::Problem;
+use crate::controller::{End, Simulation};
+use crate::partition::{Grid, GridAxis};
 use imdp::numeric::to_f64;
 use imdp::progress::Progress;
 use std::collections::BTreeMap;
 
 /// So many runs show what happens in one of a hundred.
 const RUNS: u64 = 2000;
-/// Runs of unbounded tasks are given up after this many steps.
-const MOST_STEPS: u64 = 10_000;
 /// Less than this is not worth a line.
 const RARE: f64 = 0.002;
 
-/// Where runs from the initial state end, with noise drawn from what is known of it.
+/// Where the runs of a closed loop end that begin in `start`, with noise drawn from what is known of it.
 pub(super) fn simulate(
-    problem: &Problem,
-    controller: &Controller,
+    simulation: &Simulation<'_>,
+    grid: &Grid,
+    names: &[String],
+    start: &[f64],
     progress: &dyn Progress,
-) -> Option<Reason> {
-    let start = problem.initial_state()?;
-    let simulation = Simulation::new(problem, controller, Noise::of_plant(problem.noise()), MOST_STEPS);
+) -> Reason {
     progress.start("runs to explain", RUNS);
     let mut ends: BTreeMap<String, u64> = BTreeMap::new();
     let mut good = 0;
@@ -32,7 +29,7 @@ pub(super) fn simulate(
         let last = trajectory.steps.last().map(|step| step.state.as_slice()).unwrap_or_default();
         let end = match outcome.end {
             _ if outcome.satisfied => None,
-            End::Outside => Some(face(problem, last)),
+            End::Outside => Some(face(grid, names, last)),
             End::Unsafe => Some("meet an unsafe region".to_owned()),
             End::NoAction => Some("come to a cell in which nothing is enabled".to_owned()),
             End::Over | End::Unfinished => Some("run out of time".to_owned()),
@@ -53,16 +50,16 @@ pub(super) fn simulate(
         ends.into_iter().map(|(end, count)| Loss { end, share: share(count) }).collect();
     losses.retain(|loss| loss.share >= RARE);
     losses.sort_by(|one, other| other.share.total_cmp(&one.share));
-    Some(Reason::Losses { simulated: share(good), losses })
+    Reason::Losses { simulated: share(good), losses }
 }
 
 /// The face of the partition that a state outside is farthest beyond, in cells.
-fn face(problem: &Problem, x: &[f64]) -> String {
-    let beyond = problem.grid().axes().iter().zip(x).enumerate().flat_map(|(j, (axis, &x))| {
+fn face(grid: &Grid, names: &[String], x: &[f64]) -> String {
+    let beyond = grid.axes().iter().zip(names).zip(x).flat_map(|((axis, name), &x)| {
         let (lower, upper, width) = (to_f64(axis.lower()), to_f64(axis.upper()), to_f64(axis.width()));
         [
-            ((lower - x) / width, format!("x{} < {lower}", j + 1)),
-            ((x - upper) / width, format!("x{} ≥ {upper}", j + 1)),
+            ((lower - x) / width, format!("{name} < {lower}")),
+            ((x - upper) / width, format!("{name} ≥ {upper}")),
         ]
     });
     let farthest = beyond.max_by(|(one, _), (other, _)| one.total_cmp(other));
@@ -72,12 +69,12 @@ fn face(problem: &Problem, x: &[f64]) -> String {
     )
 }
 
-/// About the standard deviation of the noise of one grouped step, per dimension, in cells.
-pub(super) fn spreads(problem: &Problem) -> Vec<Spread> {
-    let axes = problem.grid().axes().iter().zip(problem.grid().widths());
-    let spread = |(deviation, (axis, width)): (f64, (&GridAxis, f64))| Spread {
+/// Standard deviations of the noise of one step of the model, in cells.
+pub(super) fn spread_of(deviations: &[f64], grid: &Grid) -> Vec<Spread> {
+    let axes = grid.axes().iter().zip(grid.widths());
+    let spread = |(deviation, (axis, width)): (&f64, (&GridAxis, f64))| Spread {
         deviation: deviation / width,
         cells: axis.cells(),
     };
-    problem.noise().spread().into_iter().zip(axes).map(spread).collect()
+    deviations.iter().zip(axes).map(spread).collect()
 }

@@ -4,19 +4,25 @@
 //! worth with other steps, other samples, another border.
 
 mod evidence;
+mod inputs;
 mod losses;
 mod reach;
 mod reason;
+mod trials;
 
-pub use reason::{Explanation, GroupingTable, Loss, Reason, Spread};
+pub use inputs::explain_inputs;
+pub use reason::{Explanation, GroupingTable, Loss, Reason, Spread, Trial};
 
 use crate::abstraction::Abstraction;
-use crate::controller::Controller;
+use crate::controller::{Controller, Noise, Simulation};
 use crate::partition::CellKind;
 use crate::problem::Problem;
 use crate::task::Aim;
 use imdp::progress::Progress;
 use imdp::solver::Answer;
+
+/// Runs of unbounded tasks are given up after this many steps.
+const MOST_STEPS: u64 = 10_000;
 
 /// Why the bound on a compiled and solved problem is what it is.
 pub fn explain(
@@ -59,10 +65,15 @@ pub fn explain(
                 });
             }
             reasons.extend(evidence::weigh(problem, abstraction, answer));
-            reasons.extend(losses::simulate(problem, controller, progress));
+            if let Some(start) = problem.initial_state() {
+                let noise = Noise::of_plant(problem.noise());
+                let simulation = Simulation::new(problem, controller, noise, MOST_STEPS);
+                let names: Vec<String> = (1..=start.len()).map(|j| format!("x{j}")).collect();
+                reasons.push(losses::simulate(&simulation, problem.grid(), &names, start, progress));
+            }
         }
         Some(_) => {}
     }
-    reasons.push(Reason::Noise { spreads: losses::spreads(problem) });
+    reasons.push(Reason::Noise { spreads: losses::spread_of(&problem.noise().spread(), problem.grid()) });
     Explanation { bound: controller.promised().bound, reasons }
 }

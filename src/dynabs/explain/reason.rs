@@ -37,6 +37,34 @@ pub enum Reason {
         /// What numbers of grouped steps could do.
         grouping: Vec<GroupingTrial>,
     },
+    /// No input is enabled in the cell of the initial state, where actions are inputs.
+    NoInputAtStart {
+        /// In how many ordinary cells none is.
+        idle: usize,
+        /// How many ordinary cells there are.
+        ordinary: usize,
+    },
+    /// How far the bounds are apart, where actions are inputs.
+    Between {
+        /// What is promised.
+        lower: f64,
+        /// What no controller with these inputs exceeds.
+        upper: f64,
+        /// How many samples of the noise there are; none if it is known.
+        samples: Option<usize>,
+    },
+    /// The bounds if there were no noise, where actions are inputs.
+    WithoutNoise {
+        /// What would be promised.
+        lower: f64,
+        /// What no controller with these inputs would exceed.
+        upper: f64,
+    },
+    /// What changes of the model would bring, where actions are inputs.
+    Trials {
+        /// The changes, one field each.
+        trials: Vec<Trial>,
+    },
     /// Without any noise the goal is too far away.
     TooFar {
         /// The grouped steps that it takes from target to target; none if it cannot be reached.
@@ -69,6 +97,21 @@ pub enum Reason {
         /// Per dimension.
         spreads: Vec<Spread>,
     },
+}
+
+/// What one change of a model would bring.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Trial {
+    /// The change in words.
+    pub what: String,
+    /// The field and its value, as `--set` takes them.
+    pub change: String,
+    /// What would be promised.
+    pub lower: f64,
+    /// What no controller with these inputs would exceed.
+    pub upper: f64,
+    /// How many pairs of a cell and an input there would be.
+    pub pairs: u64,
 }
 
 /// How often runs end in one way.
@@ -116,6 +159,31 @@ impl fmt::Display for Reason {
                 write!(f, "{}", GroupingTable(grouping))?;
                 f.write_str("\n  Shrink cells or enlarge /input by the factor, group more steps (/dynamics/group_steps), or place /targets where the start can be steered to")
             }
+            Self::NoInputAtStart { idle, ordinary } => write!(
+                f,
+                "enabled: no input in the cell of the initial state, as in {idle} of {ordinary} cells. Enlarge /input, shrink cells, or \
+                 use less /feedback"
+            ),
+            Self::Between { lower, upper, samples } => between(f, *lower, *upper, *samples),
+            Self::WithoutNoise { lower, upper } => match (*lower > SURE, *upper > 0.0) {
+                (true, _) => f.write_str("reach: without noise it is done for certain"),
+                (false, true) => write!(
+                    f,
+                    "reach: without noise {lower:.6} would be promised and at most {upper:.6} be possible, so images of cells are too large. \
+                     Use more /partition/cells, or /feedback"
+                ),
+                (false, false) => f.write_str(
+                    "reach: without noise no controller with these inputs does it. Raise /task/horizon, enlarge /input, give it more \
+                     values, or look for walls in /task/unsafe",
+                ),
+            },
+            Self::Trials { trials } => {
+                f.write_str("changes, one at a time:")?;
+                trials.iter().try_for_each(|trial| {
+                    let Trial { what, change, lower, upper, pairs } = trial;
+                    write!(f, "\n    {what}: {lower:.6}, at most {upper:.6}, {pairs} pairs of cell and input (--set '{change}')")
+                })
+            }
             Self::TooFar { steps: Some(steps), horizon, .. } => {
                 let given = horizon.map_or("no".to_owned(), |horizon| horizon.to_string());
                 write!(f, "reach: without noise the goal is {steps} grouped steps away, and there are {given}. Raise /task/horizon or enlarge /input")
@@ -151,6 +219,29 @@ impl fmt::Display for Reason {
                 Ok(())
             }
         }
+    }
+}
+
+/// Where it is as good as certain.
+const SURE: f64 = 0.999;
+
+/// What the distance between two bounds says.
+fn between(f: &mut fmt::Formatter<'_>, lower: f64, upper: f64, samples: Option<usize>) -> fmt::Result {
+    let (impossible, open) = (1.0 - upper, upper - lower);
+    write!(
+        f,
+        "bounds: {lower:.6} is promised and no controller with these inputs exceeds {upper:.6}: {impossible:.6} is lost to noise and \
+         inputs whatever the cells, {open:.6} is open"
+    )?;
+    match (samples, impossible > open) {
+        (_, true) => f.write_str(". Enlarge /input or raise /task/horizon; finer cells bring less than that"),
+        (Some(samples), false) => {
+            write!(
+                f,
+                ": cells, lattice or {samples} samples. Measure more, use fewer cells, or see what changes bring"
+            )
+        }
+        (None, false) => f.write_str(": cells and lattice. See what changes bring"),
     }
 }
 
