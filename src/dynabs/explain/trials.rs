@@ -49,7 +49,7 @@ pub(super) fn trials(
         ("/partition/resolution", json!(finer), "a lattice twice as fine"),
         ("/partition/cells", json!(cells), "twice as many cells in every direction"),
     ];
-    if document.value.pointer("/feedback").is_none() {
+    if document.value.pointer("/feedback").is_none_or(Value::is_null) {
         changes.push(("/feedback", json!({"narrow": 0.25}), "feedback that narrows images"));
     }
     let numbers = |pointer: &str| -> Option<Vec<f64>> {

@@ -163,8 +163,15 @@ impl Seeker<'_> {
         job: &Job,
         extent: Extent,
     ) -> Result<Option<Map<String, Value>>, CliError> {
-        let has_feedback =
-            || Ok::<_, CliError>(sweep.document(&job.setting)?.value.pointer("/feedback").is_some());
+        let has_feedback = || {
+            Ok::<_, CliError>(
+                sweep
+                    .document(&job.setting)?
+                    .value
+                    .pointer("/feedback")
+                    .is_some_and(|feedback| !feedback.is_null()),
+            )
+        };
         if !self.together || !extent.takes_inputs || has_feedback()? {
             return Ok(None);
         }
