@@ -44,6 +44,7 @@ mod reliability;
 mod report;
 mod riccati;
 mod schemas;
+mod search;
 mod simulate;
 mod solution;
 mod solver;

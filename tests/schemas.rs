@@ -111,6 +111,10 @@ fn every_output_is_what_its_schema_says() {
     let spec = json!({"model": room, "settings": {"/task/horizon": [4, 6]}});
     fs::write(at.join("spec.json"), spec.to_string()).unwrap();
     outputs.push(("sweep", run(&["sweep", "spec.json", "-o", "sweep", "--json", "-q"])));
+    let spec = json!({"model": room, "settings": {"/task/horizon": [4, 6]}, "wanted": 0.5});
+    fs::write(at.join("search.json"), spec.to_string()).unwrap();
+    outputs.push(("found", run(&["compile", "--search", "search.json", "-o", "search", "--json", "-q"])));
+    outputs.push(("search", read("search.json")));
     run(&["init", "mine.json"]);
     outputs.push(("problem", read("mine.json")));
 

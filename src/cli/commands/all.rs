@@ -93,7 +93,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
     match &arguments.command {
         Command::Init { file } => write_starter(file, false)?,
         Command::Schema { of } => print(&of.text()?)?,
-        Command::Compile(arguments) => return compile_or_init(arguments),
+        Command::Compile(arguments) => return compile_or_init(arguments, Some("compile")),
         Command::Sweep(arguments) => return sweep::run(arguments),
         Command::Check(command) => return check::run_command(command),
         Command::Completions { shell } => {

@@ -3,6 +3,7 @@
 use super::compile_inputs;
 use super::explain::{HINT, is_low, is_soon_explained};
 use super::init::write_starter;
+use super::search::{Request, search};
 use crate::choices::format_names;
 use crate::limits::LimitArguments;
 use crate::model_text::{configured, read_model};
@@ -11,6 +12,7 @@ use crate::progress::SOLVING;
 use crate::pruning::pruned;
 use crate::resources::{Resources, times};
 use crate::results::{PropertyResult, exit_code, table};
+use crate::schemas::SchemaName;
 use crate::summary::{memory, memory_json, property, summary};
 use crate::together::require_one;
 use crate::unasked::Unasked;
@@ -19,7 +21,7 @@ use clap::{Args, Parser};
 use dynabs::abstraction::{Abstraction, Footprint, compile};
 use dynabs::controller::Controller;
 use dynabs::explain::explain;
-use dynabs::model_file::{StatedProblem, json_schema};
+use dynabs::model_file::StatedProblem;
 use dynabs::problem::Problem;
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, solution_options, write_run};
 use imdp::formats::Format;
@@ -47,10 +49,10 @@ pub struct CompileTool {
 #[command(after_help = AFTER_HELP)]
 pub struct CompileArguments {
     /// The model file (JSON).
-    #[arg(required_unless_present_any = ["init", "schema"])]
+    #[arg(required_unless_present_any = ["init", "schema", "search"])]
     model: Option<PathBuf>,
 
-    /// Write the model to this directory, which is created.
+    /// Write the model to this directory, which is created; with --search all that is tried and found.
     #[arg(short, long, value_name = "DIR", required_unless_present_any = ["dry_run", "init", "schema"])]
     output: Option<PathBuf>,
 
@@ -110,14 +112,21 @@ pub struct CompileArguments {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["model", "output", "schema"])]
     init: Option<PathBuf>,
 
-    /// Print the JSON Schema of the model file.
-    #[arg(long, conflicts_with_all = ["model", "output"])]
-    schema: bool,
+    /// Print the JSON Schema of the model file, or of another file or output.
+    #[arg(long, value_name = "FILE", value_enum, num_args = 0..=1, default_missing_value = "problem",
+        conflicts_with_all = ["model", "output"])]
+    schema: Option<SchemaName>,
+
+    /// Look for the cheapest setting of the model with a wanted bound, among those in this file (JSON). What has been tried is not
+    /// tried again.
+    #[arg(long, value_name = "SPEC", requires = "output",
+        conflicts_with_all = ["init", "schema", "set", "seed", "format", "encoding", "no_tra", "solve", "prune", "dry_run", "force"])]
+    search: Option<PathBuf>,
 }
 
 const AFTER_HELP: &str = "\
 Exit codes: 0 done, 2 bad input or usage, 3 interrupted, 4 I/O, memory or internal error;
-with --solve or --prune also 1 the threshold is missed, 3 undecided (limit, interrupt, bounds straddle the threshold).
+with --solve, --prune or --search also 1 the threshold is missed, 3 undecided (limit, interrupt, bounds straddle the threshold).
 
 Examples:
   dynabs-compile --init my-model.json
@@ -125,6 +134,7 @@ Examples:
   dynabs-compile models/double_integrator.json --dry-run --set /input/lower=[-40] --set /input/upper=[40]
   dynabs-compile models/double_integrator.json -o out --format umb,drn
   dynabs-compile models/double_integrator.json -o out --encoding rows
+  dynabs-compile --search examples/search/room.json -o found
   prism -importmodel out/model.tra,sta,lab -ex out/model.props";
 
 /// Runs the tool.
@@ -133,17 +143,25 @@ Examples:
 /// [`CliError`], which knows its exit code.
 pub fn run(tool: &CompileTool) -> Result<ExitCode, CliError> {
     tool.resources.apply()?;
-    compile_or_init(&tool.arguments)
+    compile_or_init(&tool.arguments, None)
 }
 
-/// Compiles a model, or writes one to start from.
+/// Compiles a model, looks for the best of several, or writes one to start from; `subcommand` is the name of this among the commands
+/// of the program, if it has others.
 ///
 /// # Errors
 /// [`CliError`], which knows its exit code.
-pub(super) fn compile_or_init(arguments: &CompileArguments) -> Result<ExitCode, CliError> {
-    if arguments.schema {
+pub(super) fn compile_or_init(
+    arguments: &CompileArguments,
+    subcommand: Option<&'static str>,
+) -> Result<ExitCode, CliError> {
+    if let Some(of) = arguments.schema {
         require_one("--schema")?;
-        print(&json_schema())?;
+        print(&of.text()?)?;
+    } else if let (Some(spec), Some(output)) = (&arguments.search, &arguments.output) {
+        require_one("--search")?;
+        let (json, quiet) = (arguments.json, arguments.quiet);
+        return search(&Request { model: arguments.model.as_deref(), spec, output, subcommand, json, quiet });
     } else if let Some(file) = &arguments.init {
         require_one("--init")?;
         write_starter(file, arguments.quiet)?;
@@ -215,6 +233,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
     let mut pruning = None;
     let mut solution = None;
     let mut explanation = None;
+    let mut controller_bytes = None;
     if arguments.prune {
         let solving = Instant::now();
         let (result, report) = prune(&mut abstraction, &bars)?;
@@ -226,6 +245,9 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
     if arguments.solve && !arguments.prune {
         let solving = Instant::now();
         let (answer, result) = solve(&problem, &abstraction, &bars)?;
+        if arguments.json {
+            controller_bytes = Controller::new(&problem, &abstraction, &answer)?.table_bytes().ok();
+        }
         if is_low(&answer) && !is_soon_explained(&abstraction) {
             notes.push(HINT.to_owned());
         } else if is_low(&answer) && !arguments.quiet && !arguments.json {
@@ -263,6 +285,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
         footprint: &abstraction.footprint,
         left_out: left_out.unwrap_or_default(),
         explanation: explanation.map_or(String::new(), |explanation| explanation.to_string()),
+        controller_bytes,
     };
     report(arguments, &manifest, &text, &phases, &results)?;
     Ok(exit_code(&results))
@@ -320,12 +343,13 @@ struct Texts<'a> {
     footprint: &'a Footprint,
     left_out: String,
     explanation: String,
+    controller_bytes: Option<u64>,
 }
 
 fn report(
     arguments: &CompileArguments,
     manifest: &Manifest,
-    Texts { footprint, left_out, explanation }: &Texts<'_>,
+    Texts { footprint, left_out, explanation, controller_bytes }: &Texts<'_>,
     phases: &[(&str, Duration)],
     results: &[PropertyResult],
 ) -> Result<(), CliError> {
@@ -348,6 +372,9 @@ fn report(
             object.insert("seconds".to_owned(), Value::Object(seconds));
             if arguments.dry_run {
                 object.insert("memory".to_owned(), memory_json(footprint));
+            }
+            if let Some(bytes) = controller_bytes {
+                object.insert("controller_bytes".to_owned(), (*bytes).into());
             }
             if !results.is_empty() {
                 object.insert("results".to_owned(), json!(results));

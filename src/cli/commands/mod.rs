@@ -11,6 +11,7 @@ pub mod diff;
 pub mod explain;
 mod init;
 pub mod report;
+mod search;
 pub mod simulate;
 pub mod solve;
 pub mod sweep;

@@ -13,7 +13,10 @@ use serde_json::{Map, Value};
 pub(crate) enum SchemaName {
     /// The model file, which `dynabs compile` reads.
     #[default]
+    #[value(alias = "model")]
     Problem,
+    /// The file for `dynabs compile --search`.
+    Search,
     /// manifest.json in the directory that `dynabs compile` writes.
     Manifest,
     /// What `dynabs compile --json` prints.
@@ -38,6 +41,8 @@ pub(crate) enum SchemaName {
     Crosscheck,
     /// What `dynabs sweep --json` prints.
     Sweep,
+    /// What `dynabs compile --search --json` prints.
+    Found,
 }
 
 /// Definitions by name, several in a file.
@@ -52,10 +57,10 @@ const PARTS: [&str; 4] = [
 const DEFINITIONS: &str = "$defs";
 
 impl SchemaName {
-    /// The schema without what it shares with others; none for the model file, whose schema follows from its fields.
+    /// The schema without what it shares with others; none for files that users write, whose schemas stand by themselves.
     fn source(self) -> Option<&'static str> {
         Some(match self {
-            Self::Problem => return None,
+            Self::Problem | Self::Search => return None,
             Self::Manifest => include_str!("manifest.json"),
             Self::Compilation => include_str!("compilation.json"),
             Self::Results => include_str!("results.json"),
@@ -68,6 +73,7 @@ impl SchemaName {
             Self::Reference => include_str!("reference.json"),
             Self::Crosscheck => include_str!("crosscheck.json"),
             Self::Sweep => include_str!("sweep.json"),
+            Self::Found => include_str!("found.json"),
         })
     }
 
@@ -76,7 +82,13 @@ impl SchemaName {
     /// # Errors
     /// [`CliError::Failure`] if a file of this program is no JSON.
     pub(crate) fn text(self) -> Result<String, CliError> {
-        let Some(source) = self.source() else { return Ok(json_schema()) };
+        let Some(source) = self.source() else {
+            return Ok(if self == Self::Search {
+                include_str!("search.json").to_owned()
+            } else {
+                json_schema()
+            });
+        };
         let mut schema: Map<String, Value> = parsed(source)?;
         let mut all = Map::new();
         for part in PARTS {
