@@ -25,14 +25,19 @@ struct Line {
     outcome: Outcome,
 }
 
+/// Where the lower bound is in the result of a job.
+const LOWER: &str = "/results/0/lower";
+/// Where the size of its model is.
+const TRANSITIONS: &str = "/transitions";
+
 /// What is read from the result of a job: a name, and where it is.
 const FIGURES: [(&str, &str); 7] = [
-    ("lower", "/results/0/lower"),
+    ("lower", LOWER),
     ("upper", "/results/0/upper"),
     ("satisfied", "/results/0/satisfied"),
     ("states", "/states"),
     ("choices", "/choices"),
-    ("transitions", "/transitions"),
+    ("transitions", TRANSITIONS),
     ("seconds", "/results/0/seconds"),
 ];
 
@@ -103,14 +108,15 @@ impl Table {
         text
     }
 
-    /// The setting with the fewest transitions of those that promise at least so much, in words.
+    /// The setting with the fewest transitions of those that promise at least so much, in words, and what was not compared.
     pub(super) fn cheapest(&self, wanted: f64) -> String {
-        let promises = |line: &&Line| {
-            line.figure("/results/0/lower").and_then(Value::as_f64).is_some_and(|lower| lower >= wanted)
-        };
-        let size = |line: &&Line| line.figure("/transitions").and_then(Value::as_u64).unwrap_or(u64::MAX);
-        match self.lines.iter().filter(promises).min_by_key(size) {
-            Some(line) => {
+        let promises =
+            |line: &&Line| line.figure(LOWER).and_then(Value::as_f64).is_some_and(|lower| lower >= wanted);
+        let size = |line: &Line| line.figure(TRANSITIONS).and_then(Value::as_u64);
+        let promising = || self.lines.iter().filter(promises);
+        let sized = promising().filter_map(|line| Some((size(line)?, line)));
+        let mut text = match sized.min_by_key(|(size, _)| *size) {
+            Some((_, line)) => {
                 let set = self.pointers.iter().zip(&line.values);
                 let set = set.filter_map(|(pointer, value)| Some(format!("{pointer}={}", value.as_ref()?)));
                 let set: Vec<String> = set.collect();
@@ -120,8 +126,18 @@ impl Table {
                     set.join(" ")
                 )
             }
-            None => format!("none of these settings has at least {wanted}\n"),
+            None => format!("none of these settings has at least {wanted} and a number of transitions\n"),
+        };
+        let without_size = promising().filter(|line| size(line).is_none()).count();
+        let without_result = self.lines.iter().filter(|line| line.figure(LOWER).is_none()).count();
+        for (number, what) in
+            [(without_size, "at least that bound, but no size"), (without_result, "no lower bound")]
+        {
+            if number > 0 {
+                text += &format!("not compared: {number} of {} jobs with {what}\n", self.lines.len());
+            }
         }
+        text
     }
 
     /// As a list of objects.
