@@ -13,6 +13,7 @@ mod limits;
 mod model_source;
 #[cfg(feature = "mpi")]
 mod mpi;
+mod other_samples;
 mod output;
 mod progress;
 mod pruning;
