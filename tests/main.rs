@@ -43,6 +43,7 @@ mod references;
 mod reliability;
 mod report;
 mod riccati;
+mod search;
 mod simulate;
 mod solution;
 mod solver;

@@ -1,14 +1,14 @@
 //! `dynabs`: everything in one tool.
 
 use super::check;
-use super::compile::{CompileArguments, compile_or_init, write_starter};
+use super::compile::{CompileArguments, compile_or_init, schema, write_starter};
 use super::sweep;
+use crate::choices::SchemaName;
 use crate::resources::Resources;
 use crate::together::require_one;
 use crate::{CliError, print};
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
-use dynabs::model_file::json_schema;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -30,8 +30,12 @@ enum Command {
         /// The file, which must not exist.
         file: PathBuf,
     },
-    /// Print the JSON Schema of the model file.
-    Schema,
+    /// Print the JSON Schema of the model file, or of the file for compile --search.
+    Schema {
+        /// Of which file.
+        #[arg(value_enum, default_value_t)]
+        of: SchemaName,
+    },
     /// Compile a model file into an interval MDP with guaranteed probabilities, and solve it.
     Compile(Box<CompileArguments>),
     /// Compile and solve a model with many settings, here or as an array of jobs for Slurm, and collect one table.
@@ -79,8 +83,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
     }
     match &arguments.command {
         Command::Init { file } => write_starter(file, false)?,
-        Command::Schema => print(&json_schema())?,
-        Command::Compile(arguments) => return compile_or_init(arguments),
+        Command::Schema { of } => print(&schema(*of))?,
+        Command::Compile(arguments) => return compile_or_init(arguments, Some("compile")),
         Command::Sweep(arguments) => return sweep::run(arguments),
         Command::Check(command) => return check::run_command(command),
         Command::Completions { shell } => {

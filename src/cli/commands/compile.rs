@@ -2,7 +2,8 @@
 
 use super::compile_inputs;
 use super::explain::{HINT, is_low, is_soon_explained};
-use crate::choices::format_names;
+use super::search::{Request, search, search_schema};
+use crate::choices::{SchemaName, format_names};
 use crate::limits::LimitArguments;
 use crate::pruning::pruned;
 use crate::resources::{Resources, peak};
@@ -45,10 +46,10 @@ pub struct CompileTool {
 #[command(after_help = AFTER_HELP)]
 pub struct CompileArguments {
     /// The model file (JSON).
-    #[arg(required_unless_present_any = ["init", "schema"])]
+    #[arg(required_unless_present_any = ["init", "schema", "search"])]
     model: Option<PathBuf>,
 
-    /// Write the model to this directory, which is created.
+    /// Write the model to this directory, which is created; with --search all that is tried and found.
     #[arg(short, long, value_name = "DIR", required_unless_present_any = ["dry_run", "init", "schema"])]
     output: Option<PathBuf>,
 
@@ -104,14 +105,21 @@ pub struct CompileArguments {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["model", "output", "schema"])]
     init: Option<PathBuf>,
 
-    /// Print the JSON Schema of the model file.
-    #[arg(long, conflicts_with_all = ["model", "output"])]
-    schema: bool,
+    /// Print the JSON Schema of the model file, or of the file for --search.
+    #[arg(long, value_name = "FILE", value_enum, num_args = 0..=1, default_missing_value = "model",
+        conflicts_with_all = ["model", "output"])]
+    schema: Option<SchemaName>,
+
+    /// Look for the cheapest setting of the model with a wanted bound, among those in this file (JSON). What has been tried is not
+    /// tried again.
+    #[arg(long, value_name = "SPEC", requires = "output",
+        conflicts_with_all = ["init", "schema", "set", "seed", "format", "encoding", "no_tra", "solve", "prune", "dry_run", "force"])]
+    search: Option<PathBuf>,
 }
 
 const AFTER_HELP: &str = "\
 Exit codes: 0 done, 2 bad input or usage, 3 interrupted, 4 I/O, memory or internal error;
-with --solve or --prune also 1 the threshold is missed, 3 undecided (limit, interrupt, bounds straddle the threshold).
+with --solve, --prune or --search also 1 the threshold is missed, 3 undecided (limit, interrupt, bounds straddle the threshold).
 
 Examples:
   dynabs-compile --init my-model.json
@@ -119,6 +127,7 @@ Examples:
   dynabs-compile models/double_integrator.json --dry-run --set /input/lower=[-40] --set /input/upper=[40]
   dynabs-compile models/double_integrator.json -o out --format umb,drn
   dynabs-compile models/double_integrator.json -o out --encoding rows
+  dynabs-compile --search examples/search/room.json -o found
   prism -importmodel out/model.tra,sta,lab -ex out/model.props";
 
 /// Runs the tool.
@@ -127,17 +136,25 @@ Examples:
 /// [`CliError`], which knows its exit code.
 pub fn run(tool: &CompileTool) -> Result<ExitCode, CliError> {
     tool.resources.apply()?;
-    compile_or_init(&tool.arguments)
+    compile_or_init(&tool.arguments, None)
 }
 
-/// Compiles a model, or writes one to start from.
+/// Compiles a model, looks for the best of several, or writes one to start from; `subcommand` is the name of this among the commands
+/// of the program, if it has others.
 ///
 /// # Errors
 /// [`CliError`], which knows its exit code.
-pub(super) fn compile_or_init(arguments: &CompileArguments) -> Result<ExitCode, CliError> {
-    if arguments.schema {
+pub(super) fn compile_or_init(
+    arguments: &CompileArguments,
+    subcommand: Option<&'static str>,
+) -> Result<ExitCode, CliError> {
+    if let Some(of) = arguments.schema {
         require_one("--schema")?;
-        print(&json_schema())?;
+        print(&schema(of))?;
+    } else if let (Some(spec), Some(output)) = (&arguments.search, &arguments.output) {
+        require_one("--search")?;
+        let (json, quiet) = (arguments.json, arguments.quiet);
+        return search(&Request { model: arguments.model.as_deref(), spec, output, subcommand, json, quiet });
     } else if let Some(file) = &arguments.init {
         require_one("--init")?;
         write_starter(file, arguments.quiet)?;
@@ -145,6 +162,14 @@ pub(super) fn compile_or_init(arguments: &CompileArguments) -> Result<ExitCode, 
         return compile_model(arguments, model);
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The JSON Schema of a file that users write.
+pub(super) fn schema(of: SchemaName) -> String {
+    match of {
+        SchemaName::Model => json_schema(),
+        SchemaName::Search => search_schema().to_owned(),
+    }
 }
 
 pub(super) fn write_starter(file: &Path, quiet: bool) -> Result<(), CliError> {
@@ -219,6 +244,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
     let mut pruning = None;
     let mut solution = None;
     let mut explanation = None;
+    let mut controller_bytes = None;
     if arguments.prune {
         let solving = Instant::now();
         let (result, report) = prune(&mut abstraction, &bars)?;
@@ -230,6 +256,9 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
     if arguments.solve && !arguments.prune {
         let solving = Instant::now();
         let (answer, result) = solve(&problem, &abstraction, &bars)?;
+        if arguments.json {
+            controller_bytes = Controller::new(&problem, &abstraction, &answer)?.table_bytes().ok();
+        }
         if is_low(&answer) && !is_soon_explained(&abstraction) {
             notes.push(HINT.to_owned());
         } else if is_low(&answer) && !arguments.quiet && !arguments.json {
@@ -263,7 +292,8 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
         let claim = abstraction.guarantee.claim(&abstraction.property, &abstraction.model, result.bounds());
         result.guarantee = Some(claim.map_err(|error| CliError::Failure(error.to_string()))?);
     }
-    let text = Texts { footprint: &abstraction.footprint, left_out: left_out.as_deref().unwrap_or_default() };
+    let left_out = left_out.as_deref().unwrap_or_default();
+    let text = Texts { footprint: &abstraction.footprint, left_out, controller_bytes };
     report(arguments, &manifest, &text, &phases, &results)?;
     if let Some(explanation) = explanation {
         print(&explanation.to_string())?;
@@ -355,12 +385,13 @@ fn configure(
 struct Texts<'a> {
     footprint: &'a Footprint,
     left_out: &'a str,
+    controller_bytes: Option<u64>,
 }
 
 fn report(
     arguments: &CompileArguments,
     manifest: &Manifest,
-    Texts { footprint, left_out }: &Texts<'_>,
+    Texts { footprint, left_out, controller_bytes }: &Texts<'_>,
     phases: &[(&str, Duration)],
     results: &[PropertyResult],
 ) -> Result<(), CliError> {
@@ -382,6 +413,9 @@ fn report(
             object.insert("seconds".to_owned(), Value::Object(times));
             if arguments.dry_run {
                 object.insert("memory".to_owned(), memory_json(footprint));
+            }
+            if let Some(bytes) = controller_bytes {
+                object.insert("controller_bytes".to_owned(), (*bytes).into());
             }
             if !results.is_empty() {
                 object.insert("results".to_owned(), json!(results));

@@ -8,6 +8,7 @@ use crate::unasked::Unasked;
 use crate::{Bars, CliError, print, warn};
 use dynabs::abstraction::CostError;
 use dynabs::abstraction::inputs::{InputAbstraction, InputEncoding, InputModel, InputsError};
+use dynabs::controller::Controller;
 use dynabs::landing::FlatModelError;
 use dynabs::model_file::Document;
 use dynabs::problem::InputProblem;
@@ -70,7 +71,7 @@ pub(super) fn compile_inputs(
         phases.push(("model", *time));
     }
     let solving = Instant::now();
-    let mut kept = None;
+    let (mut kept, mut controller_bytes) = (None, None);
     let result = if wanted.solve {
         let options = SolverOptions { progress: &**bars, ..SolverOptions::default() };
         let solution = abstraction.question().solve(&input_solution_options(problem, &options));
@@ -81,6 +82,9 @@ pub(super) fn compile_inputs(
             }
             _ => result.with_exported(problem, &abstraction, &options),
         };
+        if wanted.json {
+            controller_bytes = Controller::of_inputs(problem, &abstraction, &solution).table_bytes().ok();
+        }
         kept = Some(solution.of_pairs());
         bars.finish();
         phases.push(("solving", solving.elapsed()));
@@ -120,6 +124,9 @@ pub(super) fn compile_inputs(
             "result": result,
             "seconds": seconds,
         });
+        if let Some(bytes) = controller_bytes {
+            object["controller_bytes"] = bytes.into();
+        }
         if wanted.dry_run {
             object["memory"] = memory_json(&abstraction.footprint);
         }

@@ -10,6 +10,7 @@ pub mod crosscheck;
 pub mod diff;
 pub mod explain;
 pub mod report;
+mod search;
 pub mod simulate;
 pub mod solve;
 pub mod sweep;

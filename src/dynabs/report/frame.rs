@@ -60,29 +60,39 @@ impl Frame {
 
     /// Border, ticks, and names of the axes.
     pub(super) fn axes(&self, across: &str, up: &str) -> String {
+        let label = |tick: f64| (tick, short(tick));
+        let marks =
+            |scale: &Scale, count| ticks(scale.from, scale.to, count).into_iter().map(label).collect();
+        self.labelled((across, marks(&self.x, 7.0)), (up, marks(&self.y, 6.0)))
+    }
+
+    /// Border, ticks that say something else than where they are, and names of the axes.
+    pub(super) fn labelled(
+        &self,
+        (across, marks_across): (&str, Vec<(f64, String)>),
+        (up, marks_up): (&str, Vec<(f64, String)>),
+    ) -> String {
         let Self { left, top, width, height, x, y } = *self;
         let bottom = top + height;
         let mut text = format!(
             "<rect class=\"border\" x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\"/>"
         );
-        for tick in ticks(x.from, x.to, 7.0) {
+        for (tick, label) in marks_across {
             let at = coordinate(x.at(tick));
             text += &format!(
                 "<path class=\"tick\" d=\"M{at} {bottom}v5\"/><text class=\"number\" x=\"{at}\" y=\"{}\" \
-                 text-anchor=\"middle\">{}</text>",
-                bottom + 18.0,
-                short(tick)
+                 text-anchor=\"middle\">{label}</text>",
+                bottom + 18.0
             );
         }
-        for tick in ticks(y.from, y.to, 6.0) {
+        for (tick, label) in marks_up {
             let at = y.at(tick);
             text += &format!(
                 "<path class=\"tick\" d=\"M{left} {}h-5\"/><text class=\"number\" x=\"{}\" y=\"{}\" \
-                 text-anchor=\"end\">{}</text>",
+                 text-anchor=\"end\">{label}</text>",
                 coordinate(at),
                 left - 8.0,
-                coordinate(at + 4.0),
-                short(tick)
+                coordinate(at + 4.0)
             );
         }
         let (middle, half) = (left + width / 2.0, top + height / 2.0);

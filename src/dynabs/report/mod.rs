@@ -32,6 +32,7 @@ mod sides;
 mod tables;
 mod task;
 mod tiles;
+mod trade_off;
 mod values;
 mod view;
 mod words;
@@ -41,6 +42,7 @@ pub use input_material::InputMaterial;
 pub use material::{Material, MaterialOptions};
 pub use page::{ReportError, input_page, page};
 pub use results::{CROSS_CHECK, CrossCheckError, read_cross_checks};
+pub use trade_off::{TradeOff, TradeOffPoint};
 
 use heat_map::heat_map;
 use noise_plots::noise_plots;

@@ -1,5 +1,6 @@
 //! One setting of a sweep, in a directory of its own.
 
+use super::program::Program;
 use super::spec::{Sweep, text};
 use crate::CliError;
 use imdp::files::{self, Outputs};
@@ -7,26 +8,57 @@ use serde_json::{Map, Value, json};
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
 /// What a job is, for whoever runs and collects it.
 const JOB: &str = "job.json";
-/// What `dynabs compile --json` printed.
-const RESULT: &str = "result.json";
 /// What it said on the way.
 const LOG: &str = "log.txt";
 /// The run that it wrote.
 const RUN: &str = "run";
 
 /// A job that has been written.
-pub(super) struct Job {
-    pub(super) directory: PathBuf,
+pub(in crate::commands) struct Job {
+    pub(in crate::commands) directory: PathBuf,
     model: String,
-    pub(super) setting: Map<String, Value>,
+    pub(in crate::commands) setting: Map<String, Value>,
+}
+
+/// What is wanted of a job.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::commands) enum Purpose {
+    /// How large its model is.
+    Size,
+    /// Its bound, and no file.
+    Bound,
+    /// Its bound and a run without files for other programs.
+    Run,
+    /// Its bound and a run as `compile` writes it.
+    WholeRun,
+}
+
+impl Purpose {
+    /// The options of `compile`.
+    fn options(self) -> &'static [&'static str] {
+        match self {
+            Self::Size => &["--dry-run", "--json"],
+            Self::Bound => &["--dry-run", "--solve", "--json"],
+            Self::Run => &["--solve", "--no-tra", "--json", "--force", "-o", RUN],
+            Self::WholeRun => &["--solve", "--json", "--force", "-o", RUN],
+        }
+    }
+
+    /// The file of what `compile --json` printed.
+    fn result(self) -> &'static str {
+        match self {
+            Self::Size => "size.json",
+            _ => "result.json",
+        }
+    }
 }
 
 /// How far a job got.
-pub(super) enum Outcome {
+pub(in crate::commands) enum Outcome {
     /// It has a result.
     Done(Box<Value>),
     /// It ended without one.
@@ -40,7 +72,7 @@ impl Job {
     ///
     /// # Errors
     /// [`CliError`] if that fails, or if other jobs are there.
-    pub(super) fn write_all(sweep: &Sweep, below: &Path) -> Result<Vec<Self>, CliError> {
+    pub(in crate::commands) fn write_all(sweep: &Sweep, below: &Path) -> Result<Vec<Self>, CliError> {
         let model = sweep.model.display().to_string();
         if let Ok(jobs) = Self::read_all(below) {
             let same = jobs.len() == sweep.settings.len()
@@ -62,9 +94,35 @@ impl Job {
 
     fn taken(below: &Path) -> CliError {
         CliError::Input(format!(
-            "{}: found the jobs of another sweep; expected none, or those of this one\n  Choose another directory with -o.",
+            "{}: found the jobs of other settings; expected none, or those of these\n  Choose another directory with -o.",
             below.display()
         ))
+    }
+
+    /// A job of one setting, in a directory of its own, which is made; whatever another one left there is taken away.
+    ///
+    /// # Errors
+    /// [`CliError`] if that fails.
+    pub(in crate::commands) fn at(
+        directory: PathBuf,
+        model: &Path,
+        setting: Map<String, Value>,
+    ) -> Result<Self, CliError> {
+        let job = Self { directory, model: model.display().to_string(), setting };
+        let same = Self::read(job.directory.clone())
+            .is_ok_and(|found| found.model == job.model && found.setting == job.setting);
+        if !same {
+            let write = || {
+                fs::create_dir_all(&job.directory)?;
+                match fs::remove_file(job.directory.join(Purpose::WholeRun.result())) {
+                    Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+                    _ => {}
+                }
+                job.write()
+            };
+            write().map_err(|error| CliError::writing(&job.directory, &error))?;
+        }
+        Ok(job)
     }
 
     fn write(&self) -> io::Result<()> {
@@ -82,7 +140,7 @@ impl Job {
         let entries = fs::read_dir(below).map_err(|error| CliError::reading(below, &error))?;
         let mut directories: Vec<PathBuf> = entries
             .filter_map(|entry| Some(entry.ok()?.path()))
-            .filter(|path| path.join(JOB).is_file())
+            .filter(|path| is_number(path) && path.join(JOB).is_file())
             .collect();
         directories.sort();
         if directories.is_empty() {
@@ -113,48 +171,46 @@ impl Job {
         Ok(Self { directory, model, setting })
     }
 
-    /// What the tool is called with, in the directory of the job.
-    pub(super) fn arguments(&self, threads: Option<usize>) -> Vec<String> {
-        let fixed = ["compile", &self.model, "--solve", "--no-tra", "--json", "--force", "-o", RUN];
-        let mut arguments: Vec<String> = fixed.map(str::to_owned).to_vec();
-        for (pointer, value) in &self.setting {
-            arguments.extend(["--set".to_owned(), text(pointer, value)]);
-        }
-        arguments
-            .extend(threads.into_iter().flat_map(|threads| ["--threads".to_owned(), threads.to_string()]));
-        arguments
+    /// What `compile` is called with, in the directory of the job.
+    fn arguments(&self, purpose: Purpose) -> Vec<String> {
+        let sets =
+            self.setting.iter().flat_map(|(pointer, value)| ["--set".to_owned(), text(pointer, value)]);
+        let options = purpose.options().iter().map(|&option| option.to_owned());
+        std::iter::once(self.model.clone()).chain(options).chain(sets).collect()
     }
 
     /// The same as a line for a shell, which keeps what is printed.
     pub(super) fn line(&self) -> String {
-        let quoted: Vec<String> = self.arguments(None).iter().map(|argument| quoted(argument)).collect();
+        let arguments = self.arguments(Purpose::Run);
+        let quoted: Vec<String> = arguments.iter().map(|argument| quoted(argument)).collect();
+        let result = Purpose::Run.result();
         format!(
-            "dynabs {} > {RESULT}.part 2> {LOG}; code=$?; mv {RESULT}.part {RESULT}; exit $code\n",
+            "dynabs 'compile' {} > {result}.part 2> {LOG}; code=$?; mv {result}.part {result}; exit $code\n",
             quoted.join(" ")
         )
     }
 
-    /// Runs the job to its end, with so many threads; its outcome is in its directory.
+    /// Runs the job to its end; its outcome is in its directory.
     ///
     /// # Errors
     /// Whatever keeps the process from running.
-    pub(super) fn run(&self, program: &Path, threads: usize) -> io::Result<()> {
-        let part = self.directory.join(format!("{RESULT}.part"));
-        let mut command = Command::new(program);
-        command
-            .args(self.arguments(Some(threads)))
+    pub(in crate::commands) fn run(&self, program: &Program, purpose: Purpose) -> io::Result<()> {
+        let part = self.directory.join(format!("{}.part", purpose.result()));
+        program
+            .compile()
+            .args(self.arguments(purpose))
             .current_dir(&self.directory)
             .stdin(Stdio::null())
             .stdout(File::create(&part)?)
-            .stderr(File::create(self.directory.join(LOG))?);
-        command.status()?;
-        fs::rename(part, self.directory.join(RESULT))
+            .stderr(File::create(self.directory.join(LOG))?)
+            .status()?;
+        fs::rename(part, self.directory.join(purpose.result()))
     }
 
     /// How far it got.
-    pub(super) fn outcome(&self) -> Outcome {
+    pub(in crate::commands) fn outcome(&self, purpose: Purpose) -> Outcome {
         let read = |name: &str| files::read_text(&self.directory.join(name)).ok();
-        let Some(text) = read(RESULT) else { return Outcome::Open };
+        let Some(text) = read(purpose.result()) else { return Outcome::Open };
         if let Ok(result) = serde_json::from_str(&text) {
             return Outcome::Done(Box::new(result));
         }
@@ -162,6 +218,17 @@ impl Job {
         let error = log.lines().rev().find_map(|line| line.strip_prefix("error: "));
         Outcome::Failed(error.unwrap_or("it ended without a result").to_owned())
     }
+
+    /// The name of its directory.
+    pub(in crate::commands) fn name(&self) -> String {
+        self.directory.file_name().unwrap_or_default().to_string_lossy().into_owned()
+    }
+}
+
+/// Whether a directory has the name of a job.
+fn is_number(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    name.bytes().all(|byte| byte.is_ascii_digit())
 }
 
 /// A word for a shell.

@@ -1,9 +1,9 @@
 //! Jobs on this machine, several at a time.
 
-use super::job::{Job, Outcome};
+use super::job::{Job, Outcome, Purpose};
+use super::program::Program;
 use crate::CliError;
 use std::num::NonZero;
-use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::{self, available_parallelism};
@@ -13,19 +13,17 @@ use std::thread::{self, available_parallelism};
 /// # Errors
 /// [`CliError::Failure`] if a process cannot be started.
 pub(super) fn run(jobs: &[Job], at_once: Option<usize>, tell: impl Fn(&Job) + Sync) -> Result<(), CliError> {
-    let program =
-        std::env::current_exe().map_err(|error| CliError::Failure(format!("this program: {error}")))?;
     let processors = available_parallelism().map_or(1, NonZero::get);
     let workers = at_once.unwrap_or(processors).min(jobs.len());
-    let threads = (processors / workers.max(1)).max(1);
+    let program = Program::this(Some("compile"), (processors / workers.max(1)).max(1))?;
     let next = AtomicUsize::new(0);
     let failure = Mutex::new(None);
     let work = || {
         while let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
-            if !matches!(job.outcome(), Outcome::Open) {
+            if !matches!(job.outcome(Purpose::Run), Outcome::Open) {
                 continue;
             }
-            match job.run(Path::new(&program), threads) {
+            match job.run(&program, Purpose::Run) {
                 Ok(()) => tell(job),
                 Err(error) => {
                     next.store(jobs.len(), Ordering::Relaxed);

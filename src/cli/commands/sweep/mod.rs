@@ -1,14 +1,16 @@
 //! `dynabs sweep`: one model with many settings, here or on the machines of a cluster.
 
-mod job;
+pub(super) mod figures;
+pub(super) mod job;
 mod local;
+pub(super) mod program;
 mod slurm;
-mod spec;
-mod table;
+pub(super) mod spec;
+pub(super) mod table;
 
 use crate::{CliError, print, print_json, warn};
 use clap::Args;
-use job::{Job, Outcome};
+use job::{Job, Outcome, Purpose};
 use spec::Sweep;
 use std::fs;
 use std::path::PathBuf;
@@ -96,7 +98,7 @@ pub fn run(arguments: &SweepArguments) -> Result<ExitCode, CliError> {
     if !arguments.collect {
         local::run(&jobs, arguments.jobs.map(usize::from), |job| {
             if !arguments.quiet {
-                let how = if let Outcome::Done(_) = job.outcome() { "done" } else { "failed" };
+                let how = if let Outcome::Done(_) = job.outcome(Purpose::Run) { "done" } else { "failed" };
                 warn(&format!("{}: {how}\n", job.directory.display()));
             }
         })?;

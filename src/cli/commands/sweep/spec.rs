@@ -2,10 +2,11 @@
 
 use crate::CliError;
 use dynabs::Diagnostic;
-use dynabs::model_file::{Document, SetArgument};
+use dynabs::model_file::{Document, SetArgument, StatedProblem};
+use dynabs::problem::StepNoise;
 use imdp::files;
 use serde::Deserialize;
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -14,6 +15,9 @@ const MOST_JOBS: usize = 9999;
 
 /// The part of a model file that says how many settings are compiled with the same samples.
 const SETTINGS_OF_SAMPLES: &str = "/probabilities/sweep";
+
+/// Where it stands.
+const PROBABILITIES: &str = "/probabilities";
 
 /// A file that describes a sweep.
 #[derive(Deserialize)]
@@ -33,14 +37,46 @@ fn together() -> bool {
     true
 }
 
-/// The settings of a sweep.
-pub(super) struct Sweep {
+/// Settings of a model: those of a sweep, or those that a search may try.
+pub(in crate::commands) struct Sweep {
     /// The model file: an absolute path.
-    pub(super) model: PathBuf,
+    pub(in crate::commands) model: PathBuf,
     /// Per setting, the values of JSON pointers in it.
-    pub(super) settings: Vec<Map<String, Value>>,
+    pub(in crate::commands) settings: Vec<Map<String, Value>>,
     /// Whether every setting but those without samples has its part of what all may fail with.
     pub(super) together: bool,
+    /// Per setting, what is known of it before it is compiled.
+    pub(in crate::commands) extents: Vec<Extent>,
+}
+
+/// How large a problem is.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::commands) struct Extent {
+    /// The cells of the partition.
+    pub(in crate::commands) cells: u64,
+    /// The samples of the noise: of grouped steps if only these are known, else of single ones. None if it is known.
+    pub(in crate::commands) samples: Option<u64>,
+    /// Whether actions are inputs.
+    pub(in crate::commands) takes_inputs: bool,
+}
+
+impl Extent {
+    fn new(problem: &StatedProblem) -> Self {
+        let (grid, noise, group_steps) = match problem {
+            StatedProblem::Targets(problem) => {
+                (problem.grid(), problem.noise().samples(), problem.group_steps() as u64)
+            }
+            StatedProblem::Inputs(problem) => {
+                (problem.grid(), problem.noise().samples().map(|samples| &samples.noise), 1)
+            }
+        };
+        let number = noise.map(|noise| match noise.of_one_step {
+            StepNoise::Unknown => noise.samples.len() as u64,
+            _ => noise.samples.len() as u64 * group_steps,
+        });
+        let takes_inputs = matches!(problem, StatedProblem::Inputs(_));
+        Self { cells: grid.num_cells().into(), samples: number, takes_inputs }
+    }
 }
 
 impl Sweep {
@@ -56,36 +92,89 @@ impl Sweep {
             Diagnostic::at("", error.to_string(), expected).in_file(&name)
         })?;
         let model = path.parent().unwrap_or(Path::new("")).join(spec.model);
-        let model = model.canonicalize().map_err(|error| CliError::reading(&model, &error))?;
         let settings = settings(spec.settings).map_err(|error| error.in_file(&name))?;
-        let mut sweep = Self { model, settings, together: spec.together };
+        Self::of_model(&model, settings, spec.together)
+    }
+
+    /// Tries settings on a model; if all promises are to hold together, each gets its part of what all may fail with.
+    ///
+    /// # Errors
+    /// [`CliError::Input`] if a setting makes no problem.
+    pub(in crate::commands) fn of_model(
+        model: &Path,
+        settings: Vec<Map<String, Value>>,
+        together: bool,
+    ) -> Result<Self, CliError> {
+        let model = model.canonicalize().map_err(|error| CliError::reading(model, &error))?;
+        let mut sweep = Self { model, settings, together, extents: vec![] };
         sweep.try_settings()?;
         Ok(sweep)
     }
 
+    /// The model file with a setting.
+    ///
+    /// # Errors
+    /// [`CliError::Input`] if that is not possible.
+    pub(in crate::commands) fn document(&self, setting: &Map<String, Value>) -> Result<Document, CliError> {
+        let mut document = self.original()?;
+        apply(&mut document, setting)?;
+        Ok(document)
+    }
+
+    /// The name of the model.
+    ///
+    /// # Errors
+    /// [`CliError::Input`] if its file cannot be read any more.
+    pub(in crate::commands) fn name(&self) -> Result<String, CliError> {
+        let original = self.original()?;
+        Ok(original.value.pointer("/name").and_then(Value::as_str).unwrap_or_default().to_owned())
+    }
+
+    fn original(&self) -> Result<Document, CliError> {
+        let text = files::read_text(&self.model).map_err(|error| CliError::reading(&self.model, &error))?;
+        Ok(Document::parse(&self.model, &text)?)
+    }
+
     /// Makes sure that every setting is a problem, and gives each its part of what all may fail with.
     fn try_settings(&mut self) -> Result<(), CliError> {
-        let text = files::read_text(&self.model).map_err(|error| CliError::reading(&self.model, &error))?;
-        let original = Document::parse(&self.model, &text)?;
+        let original = self.original()?;
+        let others = settings_of(&original);
         let number = self.settings_of_samples(&original)?;
         for (i, setting) in self.settings.iter_mut().enumerate() {
             let mut document = original.clone();
             document.name = format!("{} with setting {}", original.name, i + 1);
-            for (pointer, value) in setting.iter() {
-                document.set(&argument(pointer, value)?)?;
-            }
-            document.stated()?;
-            if self.together && number > 1 && document.value.pointer(SETTINGS_OF_SAMPLES).is_none() {
-                let share = Value::from(number);
-                document.set(&argument(SETTINGS_OF_SAMPLES, &share)?)?;
+            apply(&mut document, setting)?;
+            let extent = Extent::new(&document.stated()?);
+            self.extents.push(extent);
+            // What the model says of other settings counts beside these; what a setting says of them all does not.
+            let stated = settings_of(&document);
+            if self.together && number > 1 && stated == others && extent.samples.is_some() {
+                let share = Value::from(stated.unwrap_or(1).saturating_mul(number as u64));
+                let (pointer, share) = match document.value.pointer(PROBABILITIES) {
+                    Some(Value::Object(_)) => (SETTINGS_OF_SAMPLES, share),
+                    _ => (PROBABILITIES, json!({"sweep": share})),
+                };
+                document.set(&argument(pointer, &share)?)?;
                 // Where nothing depends on samples there is nothing to share.
                 if document.stated().is_ok() {
-                    setting.insert(SETTINGS_OF_SAMPLES.to_owned(), share);
+                    setting.insert(pointer.to_owned(), share);
                 }
             }
         }
         Ok(())
     }
+}
+
+/// The number of settings that a document says are compiled with its samples.
+fn settings_of(document: &Document) -> Option<u64> {
+    document.value.pointer(SETTINGS_OF_SAMPLES).and_then(Value::as_u64)
+}
+
+fn apply(document: &mut Document, setting: &Map<String, Value>) -> Result<(), CliError> {
+    for (pointer, value) in setting {
+        document.set(&argument(pointer, value)?)?;
+    }
+    Ok(())
 }
 
 /// What no event depends on where a plan is followed: settings that differ in nothing else share nothing.
@@ -97,9 +186,7 @@ impl Sweep {
         let mut different: BTreeSet<String> = BTreeSet::new();
         for setting in &self.settings {
             let mut document = original.clone();
-            for (pointer, value) in setting {
-                document.set(&argument(pointer, value)?)?;
-            }
+            apply(&mut document, setting)?;
             let follows_plan = document.value.pointer(FREE[0]).is_some_and(|plan| !plan.is_null());
             let kept: Map<String, Value> = setting
                 .iter()
@@ -129,7 +216,10 @@ fn argument(pointer: &str, value: &Value) -> Result<SetArgument, CliError> {
 }
 
 /// All combinations of lists of values, or a list as it is.
-fn settings(settings: Value) -> Result<Vec<Map<String, Value>>, Diagnostic> {
+///
+/// # Errors
+/// A [`Diagnostic`] if it is neither, or if there are none or too many.
+pub(in crate::commands) fn settings(settings: Value) -> Result<Vec<Map<String, Value>>, Diagnostic> {
     let expected = "an object with a list of values for every JSON pointer, or a list of objects with one value for each";
     let all = match settings {
         Value::Object(lists) => {

@@ -1,10 +1,10 @@
 //! What came of all jobs, in one table.
 
-use super::job::{Job, Outcome};
+use super::figures::{Figure, figure};
+use super::job::{Job, Outcome, Purpose};
 use crate::CliError;
 use imdp::files::Outputs;
 use serde_json::{Value, json};
-use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -25,20 +25,15 @@ struct Line {
     outcome: Outcome,
 }
 
-/// Where the lower bound is in the result of a job.
-const LOWER: &str = "/results/0/lower";
-/// Where the size of its model is.
-const TRANSITIONS: &str = "/transitions";
-
-/// What is read from the result of a job: a name, and where it is.
-const FIGURES: [(&str, &str); 7] = [
-    ("lower", LOWER),
-    ("upper", "/results/0/upper"),
-    ("satisfied", "/results/0/satisfied"),
-    ("states", "/states"),
-    ("choices", "/choices"),
-    ("transitions", TRANSITIONS),
-    ("seconds", "/results/0/seconds"),
+/// What is read from the result of a job.
+const FIGURES: [Figure; 7] = [
+    Figure::Lower,
+    Figure::Upper,
+    Figure::Satisfied,
+    Figure::States,
+    Figure::Choices,
+    Figure::Transitions,
+    Figure::Seconds,
 ];
 
 impl Line {
@@ -50,9 +45,9 @@ impl Line {
         }
     }
 
-    fn figure(&self, place: &str) -> Option<&Value> {
+    fn figure(&self, of: Figure) -> Option<&Value> {
         match &self.outcome {
-            Outcome::Done(result) => result.pointer(place).filter(|value| !value.is_null()),
+            Outcome::Done(result) => figure(result, of),
             _ => None,
         }
     }
@@ -61,7 +56,7 @@ impl Line {
     fn cells(&self) -> Vec<String> {
         let text = |value: Option<&Value>| value.map_or(String::new(), Value::to_string);
         let settings = self.values.iter().map(|value| text(value.as_ref()));
-        let figures = FIGURES.iter().map(|(_, place)| text(self.figure(place)));
+        let figures = FIGURES.iter().map(|&of| text(self.figure(of)));
         std::iter::once(self.job.clone()).chain(settings).chain(figures).chain([self.state()]).collect()
     }
 }
@@ -76,9 +71,9 @@ impl Table {
             }
         }
         let line = |job: &Job| Line {
-            job: job.directory.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+            job: job.name(),
             values: pointers.iter().map(|pointer| job.setting.get(pointer).cloned()).collect(),
-            outcome: job.outcome(),
+            outcome: job.outcome(Purpose::Run),
         };
         Self { lines: jobs.iter().map(line).collect(), pointers }
     }
@@ -89,30 +84,26 @@ impl Table {
     }
 
     fn header(&self) -> Vec<String> {
-        let figures = FIGURES.iter().map(|(name, _)| (*name).to_owned());
+        let figures = FIGURES.iter().map(|of| of.name().to_owned());
         let first = std::iter::once("job".to_owned()).chain(self.pointers.iter().cloned());
         first.chain(figures).chain(["state".to_owned()]).collect()
     }
 
     /// As a table in Markdown.
     pub(super) fn to_markdown(&self) -> String {
-        let line = |cells: &[String]| {
-            let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
-            format!("| {} |\n", cells.join(" | "))
-        };
-        let header = self.header();
-        let mut text = line(&header);
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "|{}", "---|".repeat(header.len()));
-        self.lines.iter().for_each(|own| text += &line(&own.cells()));
-        text
+        let lines: Vec<_> = self.lines.iter().map(Line::cells).collect();
+        markdown(&self.header(), &lines)
     }
 
     /// The setting with the fewest transitions of those that promise at least so much, in words, and what was not compared.
     pub(super) fn cheapest(&self, wanted: f64) -> String {
-        let promises =
-            |line: &&Line| line.figure(LOWER).and_then(Value::as_f64).is_some_and(|lower| lower >= wanted);
-        let size = |line: &Line| line.figure(TRANSITIONS).and_then(Value::as_u64);
+        let promises = |line: &&Line| {
+            line.figure(Figure::Lower).and_then(Value::as_f64).is_some_and(|lower| lower >= wanted)
+        };
+        let size = |line: &Line| {
+            let size = line.figure(Figure::Transitions).or_else(|| line.figure(Figure::Choices));
+            size.and_then(Value::as_u64)
+        };
         let promising = || self.lines.iter().filter(promises);
         let sized = promising().filter_map(|line| Some((size(line)?, line)));
         let mut text = match sized.min_by_key(|(size, _)| *size) {
@@ -126,10 +117,10 @@ impl Table {
                     set.join(" ")
                 )
             }
-            None => format!("none of these settings has at least {wanted} and a number of transitions\n"),
+            None => format!("none of these settings with a known size has at least {wanted}\n"),
         };
         let without_size = promising().filter(|line| size(line).is_none()).count();
-        let without_result = self.lines.iter().filter(|line| line.figure(LOWER).is_none()).count();
+        let without_result = self.lines.iter().filter(|line| line.figure(Figure::Lower).is_none()).count();
         for (number, what) in
             [(without_size, "at least that bound, but no size"), (without_result, "no lower bound")]
         {
@@ -147,8 +138,8 @@ impl Table {
             let set = self.pointers.iter().zip(&line.values);
             object["settings"] =
                 set.filter_map(|(pointer, value)| Some((pointer.clone(), value.clone()?))).collect();
-            for (name, place) in FIGURES {
-                object[name] = line.figure(place).cloned().unwrap_or(Value::Null);
+            for of in FIGURES {
+                object[of.name()] = line.figure(of).cloned().unwrap_or(Value::Null);
             }
             object
         };
@@ -161,16 +152,11 @@ impl Table {
     /// [`CliError`] if that fails.
     pub(super) fn write(&self, below: &Path) -> Result<PathBuf, CliError> {
         let path = below.join(TABLE);
-        let line = |out: &mut dyn Write, cells: &[String]| -> io::Result<()> {
-            let quoted: Vec<String> = cells.iter().map(|cell| field(cell)).collect();
-            writeln!(out, "{}", quoted.join(","))
-        };
+        let lines: Vec<_> = self.lines.iter().map(Line::cells).collect();
+        let text = comma_separated(&self.header(), &lines);
         let write = || -> io::Result<()> {
             let mut files = Outputs::default();
-            files.write(&path, |out| {
-                line(out, &self.header())?;
-                self.lines.iter().try_for_each(|own| line(out, &own.cells()))
-            })?;
+            files.write(&path, |out| out.write_all(text.as_bytes()))?;
             files.commit()
         };
         write().map_err(|error| CliError::writing(&path, &error))?;
@@ -178,7 +164,25 @@ impl Table {
     }
 }
 
-/// A field of comma-separated values (RFC 4180).
+/// A table in Markdown.
+pub(in crate::commands) fn markdown(header: &[String], lines: &[Vec<String>]) -> String {
+    let line = |cells: &[String]| {
+        let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
+        format!("| {} |\n", cells.join(" | "))
+    };
+    let rule = format!("|{}\n", "---|".repeat(header.len()));
+    lines.iter().fold(line(header) + &rule, |text, own| text + &line(own))
+}
+
+/// Comma-separated values (RFC 4180).
+pub(in crate::commands) fn comma_separated(header: &[String], lines: &[Vec<String>]) -> String {
+    let line = |cells: &[String]| {
+        let quoted: Vec<String> = cells.iter().map(|cell| field(cell)).collect();
+        quoted.join(",") + "\n"
+    };
+    lines.iter().fold(line(header), |text, own| text + &line(own))
+}
+
 fn field(text: &str) -> String {
     match text.contains([',', '"', '\n', '\r']) {
         true => format!("\"{}\"", text.replace('"', "\"\"")),

@@ -29,3 +29,16 @@ pub use matlab_source::matlab_source;
 pub use npz::npz;
 pub use python_source::{python_source, ros2_source};
 pub use tables::ExportError;
+
+use super::Controller;
+
+impl Controller {
+    /// How many bytes the tables take that an exported controller looks up, in their narrowest types.
+    ///
+    /// # Errors
+    /// [`ExportError::HorizonTooLong`].
+    pub fn table_bytes(&self) -> Result<u64, ExportError> {
+        let tables = tables::Tables::new(self)?;
+        Ok(tables.all.iter().map(|table| table.bytes().len() as u64).sum())
+    }
+}
