@@ -59,16 +59,7 @@ impl InputResult {
         let lower = initial.iter().map(|cell| at(&solution.values.lower, cell)).fold(1.0, f64::min);
         let upper = initial.iter().map(|cell| at(&solution.values.upper, cell)).fold(0.0, f64::max);
         let decided = abstraction.decided();
-        let verdict = problem.threshold().map(|threshold| {
-            let of_cell = |cell: &u32| {
-                threshold_verdict(
-                    threshold.to_f64(),
-                    at(&solution.values.lower, cell),
-                    at(&solution.values.upper, cell),
-                )
-            };
-            Verdict::in_all(initial.iter().map(of_cell))
-        });
+        let verdict = abstraction.verdict(problem, &solution.values);
         let ended =
             matches!(solution.status, Status::HorizonReached | Status::Converged | Status::PrecisionLimit);
         Self {
@@ -78,11 +69,7 @@ impl InputResult {
             best: decided.iter().map(|cell| at(&solution.values.lower, cell)).fold(0.0, f64::max),
             mean: decided.iter().map(|cell| at(&solution.values.lower, cell)).sum::<f64>()
                 / decided.len().max(1) as f64,
-            satisfied: match verdict {
-                Some(Verdict::Holds) => Some(true),
-                Some(Verdict::Fails) => Some(false),
-                Some(Verdict::Unknown) | None => None,
-            },
+            satisfied: verdict.and_then(Verdict::decided),
             status: solution.status.to_string(),
             steps: solution.iterations,
             seconds: time.as_secs_f64(),
@@ -158,16 +145,6 @@ impl InputResult {
             status: (!self.ended).then_some(&ended),
         };
         text + &ending.line()
-    }
-}
-
-fn threshold_verdict(threshold: f64, lower: f64, upper: f64) -> Verdict {
-    if lower >= threshold {
-        Verdict::Holds
-    } else if upper < threshold {
-        Verdict::Fails
-    } else {
-        Verdict::Unknown
     }
 }
 

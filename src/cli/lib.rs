@@ -16,6 +16,7 @@ mod model_source;
 mod model_text;
 #[cfg(feature = "mpi")]
 mod mpi;
+mod other_samples;
 mod output;
 mod phases;
 mod progress;
