@@ -245,7 +245,7 @@ fn mistakes_in_files_are_named() {
         ("{\"name\": \"x\"} trailing", ["line 1", "trailing"]),
         ("{\n  // a car\n  \"name\": \"x\"}", ["line 2", "JSON has no comments"]),
         ("{\"name\": /* a car */ \"x\"}", ["line 1, column 10", "JSON has no comments"]),
-        ("[]", ["m.json", "struct ModelFile"]),
+        ("[]", ["m.json", "an object, in { and }"]),
         ("{\"name\": \"x\"}", ["no field `dynamics`", "m.json"]),
     ] {
         fs::write(&file, text).unwrap();

@@ -89,13 +89,13 @@ impl SchemaName {
                 json_schema()
             });
         };
-        let mut schema: Map<String, Value> = parsed(source)?;
+        let mut schema = parsed(source)?;
         let mut all = Map::new();
         for part in PARTS {
             all.extend(parsed(part)?);
         }
         let mut used = Map::new();
-        let mut open: Vec<String> = schema.values().flat_map(references).collect();
+        let mut open = names_in(&schema);
         while let Some(name) = open.pop() {
             if let Some(part) = all.remove(&name) {
                 open.extend(references(&part));
@@ -115,14 +115,17 @@ fn parsed(text: &str) -> Result<Map<String, Value>, CliError> {
         .map_err(|error| CliError::Failure(format!("a schema of this program: {error}")))
 }
 
+/// The names of the definitions that a schema, as a map, refers to.
+fn names_in(map: &Map<String, Value>) -> Vec<String> {
+    let own = map.get("$ref").and_then(Value::as_str);
+    let own = own.and_then(|text| text.strip_prefix("#/$defs/")).map(str::to_owned);
+    own.into_iter().chain(map.values().flat_map(references)).collect()
+}
+
 /// The names of the definitions that a schema refers to.
 fn references(schema: &Value) -> Vec<String> {
     match schema {
-        Value::Object(map) => {
-            let own = map.get("$ref").and_then(Value::as_str);
-            let own = own.and_then(|text| text.strip_prefix("#/$defs/")).map(str::to_owned);
-            own.into_iter().chain(map.values().flat_map(references)).collect()
-        }
+        Value::Object(map) => names_in(map),
         Value::Array(items) => items.iter().flat_map(references).collect(),
         _ => vec![],
     }
