@@ -146,6 +146,7 @@ try {
     check(drawing("#map .runs").length > first.length, "no steps in between");
   }
   check(!/NaN|Infinity|undefined/.test(document.body.innerHTML.replace(/<script[\s\S]*?<\/script>/g, "")), "NaN is shown");
+  check(!document.querySelector("main img, main b, main script"), "a name became markup");
   const wide = document.documentElement;
   check(wide.scrollWidth <= wide.clientWidth, `the page is ${wide.scrollWidth} wide, the window ${wide.clientWidth}`);
 } catch (error) {

@@ -23,6 +23,7 @@ persistent t
 if isempty(t)
     t = tables();
 end
+x = double(x);
 [m, n] = size(x);
 if n ~= {{ tables.states }}
     error('x: found %d columns; expected {{ tables.states }}, a row for each state', n);

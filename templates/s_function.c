@@ -18,7 +18,8 @@
 /* What is kept from step to step: counts[] and the inputs of a group. Outputs work on a copy, for Simulink may ask for them
  * more than once a step. */
 enum { STEP, STATUS, {% if tables.memory.is_some() %}MEMORY, {% endif %}COUNTS };
-enum { KEPT_COUNTS, KEPT_INPUTS, NEXT_COUNTS, NEXT_INPUTS, WORK_VECTORS };
+/* Names that end otherwise than those of the controller, whatever it is called. */
+enum { COUNTS_KEPT, INPUTS_KEPT, COUNTS_NEXT, INPUTS_NEXT, WORK_VECTORS };
 
 static void mdlInitializeSizes(SimStruct *S)
 {
@@ -39,7 +40,7 @@ static void mdlInitializeSizes(SimStruct *S)
     ssSetNumSampleTimes(S, 1);
     ssSetNumDWork(S, WORK_VECTORS);
     for (i = 0; i < WORK_VECTORS; ++i) {
-        const int counts = i == KEPT_COUNTS || i == NEXT_COUNTS;
+        const int counts = i == COUNTS_KEPT || i == COUNTS_NEXT;
         ssSetDWorkWidth(S, i, counts ? COUNTS : GROUP_STEPS * OUTPUT_WIDTH);
         ssSetDWorkDataType(S, i, counts ? SS_UINT32 : SS_DOUBLE);
     }
@@ -55,8 +56,8 @@ static void mdlInitializeSampleTimes(SimStruct *S)
 #define MDL_INITIALIZE_CONDITIONS
 static void mdlInitializeConditions(SimStruct *S)
 {
-    uint32_t *counts = (uint32_t *)ssGetDWork(S, KEPT_COUNTS);
-    double *inputs = (double *)ssGetDWork(S, KEPT_INPUTS);
+    uint32_t *counts = (uint32_t *)ssGetDWork(S, COUNTS_KEPT);
+    double *inputs = (double *)ssGetDWork(S, INPUTS_KEPT);
     int i;
     counts[STEP] = 0;
     counts[STATUS] = {{ names.upper }}_{{ names.act }};
@@ -68,10 +69,10 @@ static void mdlInitializeConditions(SimStruct *S)
 
 static void mdlOutputs(SimStruct *S, int_T tid)
 {
-    const uint32_t *kept_counts = (const uint32_t *)ssGetDWork(S, KEPT_COUNTS);
-    const double *kept_inputs = (const double *)ssGetDWork(S, KEPT_INPUTS);
-    uint32_t *counts = (uint32_t *)ssGetDWork(S, NEXT_COUNTS);
-    double *inputs = (double *)ssGetDWork(S, NEXT_INPUTS);
+    const uint32_t *kept_counts = (const uint32_t *)ssGetDWork(S, COUNTS_KEPT);
+    const double *kept_inputs = (const double *)ssGetDWork(S, INPUTS_KEPT);
+    uint32_t *counts = (uint32_t *)ssGetDWork(S, COUNTS_NEXT);
+    double *inputs = (double *)ssGetDWork(S, INPUTS_NEXT);
     double *u = ssGetOutputPortRealSignal(S, 0);
     double *status = ssGetOutputPortRealSignal(S, 1);
     uint32_t step = kept_counts[STEP];
@@ -103,10 +104,10 @@ static void mdlOutputs(SimStruct *S, int_T tid)
 #define MDL_UPDATE
 static void mdlUpdate(SimStruct *S, int_T tid)
 {
-    const uint32_t *counts = (const uint32_t *)ssGetDWork(S, NEXT_COUNTS);
-    const double *inputs = (const double *)ssGetDWork(S, NEXT_INPUTS);
-    uint32_t *kept_counts = (uint32_t *)ssGetDWork(S, KEPT_COUNTS);
-    double *kept_inputs = (double *)ssGetDWork(S, KEPT_INPUTS);
+    const uint32_t *counts = (const uint32_t *)ssGetDWork(S, COUNTS_NEXT);
+    const double *inputs = (const double *)ssGetDWork(S, INPUTS_NEXT);
+    uint32_t *kept_counts = (uint32_t *)ssGetDWork(S, COUNTS_KEPT);
+    double *kept_inputs = (double *)ssGetDWork(S, INPUTS_KEPT);
     int i;
     (void)tid;
     for (i = 0; i < COUNTS; ++i) {

@@ -235,6 +235,31 @@ fn names_are_disarmed() {
     }
 }
 
+/// The vehicle with coordinates and a region that would be markup.
+fn hostile() -> Value {
+    let mut model = vehicle();
+    let names = ["<b>v</b>", "\"><img src=q onerror=alert(1)>", "</script><script>alert(2)</script>&lt;"];
+    model["dynamics"]["states"] = json!(names);
+    model["dynamics"]["inputs"] = json!(["<b>", "'&amp;"]);
+    model["dynamics"]["units"] = json!({(names[0]): "<b>", (names[1]): "m", (names[2]): "m"});
+    model["partition"]["periodic"] = json!([true, false, false]);
+    model
+}
+
+#[test]
+fn names_of_coordinates_are_disarmed() {
+    let scratch = TempDir::new().unwrap();
+    let model = hostile();
+    let (path, pictures) = page_of(&scratch, "hostile", &model);
+    let page = fs::read_to_string(path).unwrap();
+    for text in pictures.iter().chain([&page]) {
+        assert!(!text.contains("<b>") && !text.contains("<img") && !text.contains("<script>alert"));
+        assert_well_formed(text);
+    }
+    // What the script gets are the names themselves; it makes them safe where it makes markup of them.
+    assert_eq!(data(&page)["names"], model["dynamics"]["states"]);
+}
+
 #[test]
 fn unbounded_tasks_and_no_initial_state() {
     let scratch = TempDir::new().unwrap();
@@ -268,6 +293,23 @@ fn large_models_leave_things_out_and_say_so() {
             assert_numbers(&picture.svg);
         }
     }
+}
+
+/// Where runs remember something, too.
+#[test]
+fn large_models_with_a_memory_leave_things_out_and_say_so() {
+    let scratch = TempDir::new().unwrap();
+    let sets = [
+        "/targets={\"lower\":[0],\"upper\":[12],\"cells\":[48]}",
+        "/noise/gaussian/covariance=[[0.000001]]",
+        "/partition/cells=[48000]",
+        "/regions={\"a\":{\"lower\":[5],\"upper\":[7]},\"b\":{\"lower\":[8],\"upper\":[9]}}",
+        "/task={\"type\":\"sequence\",\"sequence\":[{\"reach\":\"a\"},{\"reach\":\"b\"}],\"horizon\":6}",
+    ];
+    let reported = reported(&compiled(&scratch, "room_temperature", &sets), vec![]);
+    assert_eq!(data(&reported.page)["memories"], 2);
+    let last = data(&reported.page)["lastStep"].as_u64().unwrap();
+    assert!(last < 6 && reported.page.contains(&format!("values after step {last} of 6")), "{last}");
 }
 
 #[test]
@@ -504,7 +546,7 @@ fn a_browser_opens_it() {
         "noise": {"components": [{"gaussian": {"deviation": 0.3}}]},
         "partition": {"lower": [-2], "upper": [2], "cells": [20]}, "task": {"type": "stay", "horizon": 6}
     });
-    for (name, model) in input_models().into_iter().chain([("kept", kept), ("three", vehicle())]) {
+    for (name, model) in input_models().into_iter().chain([("kept", kept), ("three", hostile())]) {
         command.arg(page_of(&scratch, name, &model).0);
     }
     let output = command.output().unwrap();

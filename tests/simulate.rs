@@ -155,6 +155,11 @@ fn the_command_compares_with_the_promise() {
         "--quiet",
     ]);
     assert_eq!((wild.status.code(), wild.stdout.len()), (Some(1), 0));
+    // The same with decimal commas, which have to be declared: the model's samples have none.
+    fs::write(&samples, "30,0;-30,0\n-30,0;30,0\n").unwrap();
+    let commas = ["simulate", &run, "--runs", "2000", "--noise", &samples, "--samples-of", "grouped"];
+    assert_eq!(check(&[&commas[..], &["--decimal", ","]].concat()).status.code(), Some(1));
+    assert_eq!(check(&commas).status.code(), Some(2));
     // The model's own samples.
     let own = check(&["simulate", &run, "--runs", "2000", "--noise", "samples"]);
     assert_eq!(own.status.code(), Some(0));

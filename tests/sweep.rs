@@ -85,6 +85,30 @@ fn the_smallest_model_with_a_plan_is_found() {
     assert!(!text.contains("/probabilities/sweep"), "{text}");
     assert!(text.contains("0002 has the fewest transitions of all with at least 0.9"), "{text}");
     assert!(told(spec.to_str().unwrap(), &out, "0.9999").contains("none of these settings"));
+    // A plan that is `null` is none: what a feedback leaves decides what is lost, so the settings share the confidence.
+    value["stabilizer"] = json!({"track": null, "gain": [[0.1]], "abstract_input": inputs[0]});
+    fs::write(&model, value.to_string()).unwrap();
+    let null = scratch.path().join("null");
+    assert!(told(spec.to_str().unwrap(), &null, "0").contains("/probabilities/sweep"));
+    // Jobs without a size or a result are not compared, and that is said.
+    let result = null.join("0001/result.json");
+    let mut value: Value = serde_json::from_str(&fs::read_to_string(&result).unwrap()).unwrap();
+    value["transitions"].take();
+    value["choices"].take();
+    fs::write(&result, value.to_string()).unwrap();
+    fs::remove_file(null.join("0002/result.json")).unwrap();
+    let collected = ["sweep", "--collect", "-o", null.to_str().unwrap(), "--wanted", "0"];
+    let text = String::from_utf8(dynabs(&collected).stdout).unwrap();
+    for said in [
+        "none of these settings",
+        "1 of 2 jobs with at least that bound, but no size",
+        "1 of 2 jobs with no lower bound",
+    ] {
+        assert!(text.contains(said), "{text}");
+    }
+    for wrong in [&["--wanted", "1.5"][..], &["--wanted", "nan"], &["--wanted", "0", "--json"]] {
+        assert_eq!(dynabs(&[&collected[..4], wrong].concat()).status.code(), Some(2), "{wrong:?}");
+    }
 }
 
 #[test]

@@ -61,12 +61,13 @@ fn used_samples_are_refused() {
     let lines = |seed: u64| {
         let noise =
             dynabs::noise::Gaussian::new(&[0.0], &dynabs::linear_algebra::ExactMatrix::identity(1)).unwrap();
-        noise.sample(2000, seed).iter().map(|x| format!("{}\n", 0.05 * x[0])).collect::<String>()
+        let line = |x: &[f64]| format!("{}\n", 0.05 * x[0]).replace('.', ",");
+        noise.sample(2000, seed).iter().map(line).collect::<String>()
     };
     fs::write(&used, lines(1)).unwrap();
     let model = fs::read_to_string(root().join("models/room_temperature.json")).unwrap();
     let mut model: Value = serde_json::from_str(&model).unwrap();
-    model["noise"] = serde_json::json!({"samples": {"file": "used.csv", "of": "step"}});
+    model["noise"] = serde_json::json!({"samples": {"file": "used.csv", "of": "step", "decimal": ","}});
     let path = scratch.path().join("room.json");
     fs::write(&path, model.to_string()).unwrap();
     let run = scratch.path().join("run");
@@ -85,7 +86,9 @@ fn used_samples_are_refused() {
     assert_eq!(runs, 2000 / said["samples_per_run"].as_u64().unwrap());
     let bound = lower_bound(said["satisfied"].as_u64().unwrap(), runs, 0.01);
     assert_eq!(said["bound"].as_f64().unwrap(), bound);
-    fs::write(&fresh, "0.1\n").unwrap();
+    let (code, text) = check(&["validate", directory, "--decimal", "."], &fresh);
+    assert!(code == Some(2) && text.contains("found 2 columns"), "{text}");
+    fs::write(&fresh, "0,1\n").unwrap();
     let (code, text) = check(&["validate", directory], &fresh);
     assert!(code == Some(2) && text.contains("expected at least the"), "{text}");
 }

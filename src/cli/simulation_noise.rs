@@ -1,10 +1,10 @@
 //! Which noise a simulation has.
 
 use super::CliError;
-use clap::{Args, ValueEnum};
+use crate::other_samples::OtherSamplesArguments;
+use clap::Args;
 use dynabs::controller::Noise;
-use dynabs::noise::DecimalMark;
-use dynabs::problem::{GaussianNoise, NoiseSource, SampleKind, SamplesFile, StepNoise};
+use dynabs::problem::{GaussianNoise, NoiseSource, SamplesFile, StepNoise};
 use dynabs::run::Run;
 use std::path::Path;
 
@@ -24,9 +24,8 @@ pub(crate) struct NoiseArguments {
     #[arg(long, value_name = "[...]", requires = "covariance")]
     mean: Option<String>,
 
-    /// What a sample of the CSV file is the noise of.
-    #[arg(long, value_name = "KIND", default_value = "step")]
-    samples_of: Of,
+    #[command(flatten)]
+    other_samples: OtherSamplesArguments,
 }
 
 impl NoiseArguments {
@@ -34,15 +33,6 @@ impl NoiseArguments {
     pub(super) fn is_given(&self) -> bool {
         self.noise.is_some() || self.covariance.is_some()
     }
-}
-
-/// What a sample is the noise of.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Of {
-    /// One original step.
-    Step,
-    /// One group of steps.
-    Grouped,
 }
 
 /// A noise and what to say about it.
@@ -108,7 +98,7 @@ pub(super) fn noise(arguments: &NoiseArguments, run: &Run) -> Result<ChosenNoise
             ChosenNoise { noise, said: SaidOfNoise { name, notes: vec![note.into()] } }
         }
         (Some(file), None) => {
-            let noise = given_samples(Path::new(file), arguments.samples_of, run)?;
+            let noise = given_samples(Path::new(file), arguments.other_samples, run)?;
             ChosenNoise::new(noise, format!("samples of {file}, drawn with replacement"))
         }
     };
@@ -146,22 +136,18 @@ fn given_gaussian(covariance: &str, mean: Option<&str>, run: &Run) -> Result<Noi
     Ok(Noise::Gaussian(gaussian.map_err(|error| error.in_file("--covariance"))?))
 }
 
-fn given_samples(file: &Path, of: Of, run: &Run) -> Result<Noise, CliError> {
+fn given_samples(file: &Path, how: OtherSamplesArguments, run: &Run) -> Result<Noise, CliError> {
     if !file.exists() {
         return Err(CliError::Input(format!(
             "--noise: found no file {}; expected gaussian, samples, or a CSV file",
             file.display()
         )));
     }
-    let of = match of {
-        Of::Step => SampleKind::Step,
-        Of::Grouped => SampleKind::Grouped,
-    };
     let source = NoiseSource::from(SamplesFile {
         name: file.display().to_string(),
         path: file.into(),
-        of,
-        decimal: DecimalMark::Point,
+        of: how.of(),
+        decimal: how.decimal_mark(&run.document),
     });
     let noise = source.obtain(run.problem.step_system(), run.problem.group_steps());
     Ok(Noise::of(&noise.map_err(|error| error.in_file("--noise"))?))

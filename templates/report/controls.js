@@ -1,6 +1,6 @@
 // Controls.
 const hasTime = data.lastStep > 0;
-const option = (value, text, chosen) => `<option value="${value}"${value === chosen ? " selected" : ""}>${text}</option>`;
+const option = (value, text, chosen) => `<option value="${value}"${value === chosen ? " selected" : ""}>${safe(text)}</option>`;
 const controls = () => {
   const names = data.names.map((name, j) => [j, name]);
   const time = hasTime ? [[TIME, data.time]] : [];
@@ -15,7 +15,7 @@ const controls = () => {
     html += `<label>up <select id="up">${options(names, view.up)}</select></label>`;
   }
   for (let j = 0; j < n; j++) if (isFixed(j))
-    html += `<label>${data.names[j]} <input type="range" data-slice="${j}" min="0" max="${data.cells[j] - 1}" value="${view.cell[j]}"> <output></output></label>`;
+    html += `<label>${safe(data.names[j])} <input type="range" data-slice="${j}" min="0" max="${data.cells[j] - 1}" value="${view.cell[j]}"> <output></output></label>`;
   if (hasTime && keptSteps > 0 && view.across !== TIME)
     html += `<label>steps elapsed <input type="range" id="step" min="0" max="${data.lastStep}" value="${view.step}"> <output></output></label>`;
   const layers = [["arrows", "vector field"], ["runs", "simulated runs"]];

@@ -3,6 +3,8 @@ const data = JSON.parse(document.getElementById("data").textContent);
 if (!data) return;
 const $ = (id) => document.getElementById(id);
 
+// A text of the model as it may stand in markup.
+const safe = (text) => text.replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
 // Numbers: the same texts as in the page as it was written.
 const short = (x) => String(Number(x.toPrecision(6)) + 0).replaceAll("-", "−").replace("e+", "e");
 const at2 = (x) => String(Number(x.toFixed(2)) + 0);

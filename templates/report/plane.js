@@ -50,8 +50,8 @@ const axes = (f, across, up) => {
     const y = f.py(t);
     text += `<path class="tick" d="M${f.left} ${at2(y)}h-5"/><text class="number" x="${f.left - 8}" y="${at2(y + 4)}" text-anchor="end">${short(t)}</text>`;
   }
-  return text + `<text class="name" x="${f.left + f.width / 2}" y="${bottom + 38}" text-anchor="middle">${across}</text>` +
-    `<text class="name" transform="translate(${f.left - 48} ${f.top + f.height / 2}) rotate(-90)" text-anchor="middle">${up}</text>`;
+  return text + `<text class="name" x="${f.left + f.width / 2}" y="${bottom + 38}" text-anchor="middle">${safe(across)}</text>` +
+    `<text class="name" transform="translate(${f.left - 48} ${f.top + f.height / 2}) rotate(-90)" text-anchor="middle">${safe(up)}</text>`;
 };
 
 const heat = (f) => {

@@ -38,6 +38,6 @@ const outlines = (f) => data.named.map(({name, shapes}) => {
   if (!polygons.length) return "";
   const d = polygons.map((polygon) => `M${polygon.map(([x, y]) => `${at2(f.px(x))} ${at2(f.py(y))}`).join("L")}Z`).join("");
   const mean = (k) => polygons[0].reduce((sum, corner) => sum + corner[k], 0) / polygons[0].length;
-  const text = (what) => `<text class="${what}" x="${at2(f.px(mean(0)))}" y="${at2(f.py(mean(1)))}" text-anchor="middle">${name}</text>`;
+  const text = (what) => `<text class="${what}" x="${at2(f.px(mean(0)))}" y="${at2(f.py(mean(1)))}" text-anchor="middle">${safe(name)}</text>`;
   return `<path class="casing" d="${d}"/><path class="named outline" d="${d}"/>` + text("halo") + text("named");
 }).join("");

@@ -15,6 +15,7 @@ use std::sync::Arc;
 
 /// Which controller to write where.
 #[derive(Clone, Debug, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct ControllerArguments {
     /// A directory written by dynabs-compile.
     directory: PathBuf,
@@ -31,6 +32,11 @@ pub struct ControllerArguments {
     #[arg(short, long)]
     quiet: bool,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  dynabs export out/mine -o mine.c
+  dynabs export out/mine -o mine.json";
 
 /// Runs the subcommand.
 ///
@@ -115,7 +121,10 @@ impl Form {
             "c" => Self::C(file),
             "h" => Self::Header,
             "py" if stem.ends_with("_ros2") => Self::Ros2,
-            "py" => Self::Python,
+            "py" => {
+                imported(path, stem)?;
+                Self::Python
+            }
             "m" => Self::Matlab(named(path, stem)?),
             "npz" => Self::Npz,
             "mat" => Self::Mat,
@@ -136,15 +145,60 @@ fn named(path: &Path, stem: &str) -> Result<String, CliError> {
     let is_name = stem.len() <= 63
         && stem.starts_with(|c: char| c.is_ascii_alphabetic())
         && stem.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-    if is_name {
+    if is_name && !MATLAB_WORDS.contains(&stem) {
         return Ok(stem.to_owned());
     }
     Err(CliError::Input(format!(
-        "--output: found \"{}\"; expected a name of letters, digits and _ that begins with a letter, 63 at most\n  \
+        "--output: found \"{}\"; expected a name, no word of the language, of letters, digits and _ that begins with a letter, 63 at most\n  \
          MATLAB calls a function by the name of its file.",
         path.display()
     )))
 }
+
+/// Python imports a module by the name of its file.
+fn imported(path: &Path, stem: &str) -> Result<(), CliError> {
+    let is_name = stem.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && stem.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    if is_name && !PYTHON_WORDS.contains(&stem) {
+        return Ok(());
+    }
+    Err(CliError::Input(format!(
+        "--output: found \"{}\"; expected a name, no word of the language, of letters, digits and _ that does not begin with a \
+         digit\n  Python imports a module by the name of its file.",
+        path.display()
+    )))
+}
+
+/// What cannot be the name of a module of Python.
+const PYTHON_WORDS: [&str; 35] = [
+    "False", "None", "True", "and", "as", "assert", "async", "await", "break", "class", "continue", "def",
+    "del", "elif", "else", "except", "finally", "for", "from", "global", "if", "import", "in", "is",
+    "lambda", "nonlocal", "not", "or", "pass", "raise", "return", "try", "while", "with", "yield",
+];
+
+/// What cannot be the name of a function of MATLAB.
+const MATLAB_WORDS: [&str; 20] = [
+    "break",
+    "case",
+    "catch",
+    "classdef",
+    "continue",
+    "else",
+    "elseif",
+    "end",
+    "for",
+    "function",
+    "global",
+    "if",
+    "otherwise",
+    "parfor",
+    "persistent",
+    "return",
+    "spmd",
+    "switch",
+    "try",
+    "while",
+];
 
 #[cfg(test)]
 mod tests {
@@ -163,6 +217,10 @@ mod tests {
             ("room", "ends in"),
             ("2d.m", "begins with a letter"),
             ("a-b_sfun.c", "letters"),
+            ("end.m", "no word of the language"),
+            ("class.py", "no word of the language"),
+            ("my-room.py", "letters"),
+            ("2d.py", "begin with a digit"),
         ] {
             let error = of(name).unwrap_err().to_string();
             assert!(error.contains(expected) && error.contains(name), "{error}");

@@ -1,9 +1,10 @@
 //! `dynabs-check validate`: the closed loop with samples that nothing else used.
 
+use crate::other_samples::OtherSamplesArguments;
 use crate::run_source::{Refined, refine};
 use crate::simulation_start::start;
 use crate::{Bars, CliError, print, print_json, thousands};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use dynabs::controller::{Noise, Simulation, samples_per_run};
 use dynabs::guarantee::lower_bound_text;
 use dynabs::noise::{DecimalMark, NoiseSamples, overlap, parse_csv};
@@ -23,6 +24,7 @@ const COINCIDENCES: f64 = 0.01;
 
 /// What to validate, with which samples.
 #[derive(Clone, Debug, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct ValidateArguments {
     /// A directory written by dynabs-compile.
     directory: PathBuf,
@@ -31,9 +33,8 @@ pub struct ValidateArguments {
     #[arg(long, value_name = "FILE")]
     samples: PathBuf,
 
-    /// What a sample is the noise of.
-    #[arg(long, value_name = "KIND", default_value = "step")]
-    samples_of: Of,
+    #[command(flatten)]
+    other_samples: OtherSamplesArguments,
 
     /// Where runs start, as --from=-20,0; the default is the model's initial state.
     #[arg(long, value_name = "X1,X2,...", allow_hyphen_values = true)]
@@ -52,23 +53,9 @@ pub struct ValidateArguments {
     quiet: bool,
 }
 
-/// What a sample is the noise of.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Of {
-    /// One original step.
-    Step,
-    /// One group of steps.
-    Grouped,
-}
-
-impl From<Of> for SampleKind {
-    fn from(of: Of) -> Self {
-        match of {
-            Of::Step => Self::Step,
-            Of::Grouped => Self::Grouped,
-        }
-    }
-}
+const EXAMPLES: &str = "\
+Examples:
+  dynabs validate out/mine --samples fresh.csv";
 
 /// What fresh samples showed.
 #[derive(Clone, Debug, Serialize)]
@@ -97,8 +84,8 @@ pub fn run(arguments: &ValidateArguments) -> Result<ExitCode, CliError> {
     let Refined { run, controller, .. } = refine(&arguments.directory, &bars)?;
     let problem = &run.problem;
     let start = start(arguments.from.as_deref(), problem.grid(), problem.initial_state())?;
-    let of = arguments.samples_of.into();
-    let samples = fresh(&arguments.samples, problem, of)?;
+    let (of, decimal) = (arguments.other_samples.of(), arguments.other_samples.decimal_mark(&run.document));
+    let samples = fresh(&arguments.samples, decimal, problem, of)?;
     let per_run = samples_per_run(problem, of).ok_or_else(|| {
         CliError::Input(
             "validate: found a task without a horizon; expected one with, since a run may use any number of samples".into(),
@@ -147,10 +134,15 @@ pub fn run(arguments: &ValidateArguments) -> Result<ExitCode, CliError> {
 }
 
 /// The samples of a file, if the model has not used them.
-fn fresh(path: &Path, problem: &Problem, of: SampleKind) -> Result<NoiseSamples, CliError> {
+fn fresh(
+    path: &Path,
+    decimal: DecimalMark,
+    problem: &Problem,
+    of: SampleKind,
+) -> Result<NoiseSamples, CliError> {
     let shown = path.display();
     let text = files::read_text(path).map_err(|error| CliError::reading(path, &error))?;
-    let samples = parse_csv(&text, problem.grid().dimension(), DecimalMark::Point)
+    let samples = parse_csv(&text, problem.grid().dimension(), decimal)
         .map_err(|error| CliError::Input(format!("{shown}: {error}")))?;
     let Some(own) = problem.noise().samples() else { return Ok(samples) };
     let used = match (&own.of_one_step, of) {

@@ -1,7 +1,9 @@
 //! A model file as a JSON document, before anything is known of its meaning.
 
+use super::by_example::by_example;
 use super::fields::ModelFile;
 use crate::Diagnostic;
+use crate::noise::DecimalMark;
 use imdp::property::closest_name;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::Value;
@@ -99,6 +101,14 @@ impl Document {
         self.value.pointer("/description").and_then(Value::as_str)
     }
 
+    /// What separates whole numbers from decimals in its samples, and so presumably in others of this noise.
+    pub fn decimal_mark(&self) -> DecimalMark {
+        match self.value.pointer("/noise/samples/decimal").and_then(Value::as_str) {
+            Some(",") => DecimalMark::Comma,
+            _ => DecimalMark::Point,
+        }
+    }
+
     /// Reads the document as a model file: field names and types.
     ///
     /// # Errors
@@ -109,6 +119,7 @@ impl Document {
             let message = error.into_inner().to_string();
             let (found, expected) = found_and_expected(&message);
             let nearest = nearest(&message);
+            let expected = by_example(&place, expected);
             let mistake = Diagnostic::at(place, found, expected).in_file(&self.name);
             match nearest {
                 Some(field) => mistake.remedy(format!("Did you mean \"{field}\"?")),
@@ -255,6 +266,13 @@ mod tests {
 
     fn document(text: &str) -> Document {
         Document::parse(Path::new("dir/m.json"), text).unwrap()
+    }
+
+    #[test]
+    fn decimal_marks_are_those_of_the_samples() {
+        let mark = |text: &str| Document::parse(Path::new("m.json"), text).unwrap().decimal_mark();
+        assert_eq!(mark(r#"{"noise": {"samples": {"file": "a.csv", "decimal": ","}}}"#), DecimalMark::Comma);
+        assert_eq!(mark(r#"{"noise": {"samples": {"file": "a.csv"}}}"#), DecimalMark::Point);
     }
 
     #[test]

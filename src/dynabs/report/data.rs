@@ -3,7 +3,6 @@
 use super::budget::fits;
 use super::choice::plain;
 use super::input_material::InputMaterial;
-use super::markup::escape;
 use super::material::Material;
 use super::numbers::compact;
 use super::outlines::Outlined;
@@ -61,9 +60,10 @@ fn fixed(note: String) -> Embedded {
 fn everything(scene: &Scene<'_>, view: &View, actions: EmbeddedActions) -> Embedded {
     let maps = 1 + scene.memories.len();
     let mut left_out = vec![];
-    let is_left_out = |horizon: &u64| *horizon > scene.values.last_step() as u64 && maps == 1;
+    // With several memories there may be none but those at the start; what was there and is not is missing anyway.
+    let last = scene.values.last_step();
+    let is_left_out = |horizon: &u64| *horizon > last as u64 && (maps == 1 || scene.values.has_forgotten());
     if let Some(horizon) = scene.horizon.filter(is_left_out) {
-        let last = scene.values.last_step();
         left_out.push(format!("values after step {last} of {horizon}"));
     }
     left_out.extend(actions.left_out);
@@ -78,8 +78,8 @@ fn everything(scene: &Scene<'_>, view: &View, actions: EmbeddedActions) -> Embed
     let values = scene.values.all().chain(scene.memories.iter().flat_map(StepValues::all));
     let bytes: Vec<u8> = values.flat_map(f32::to_le_bytes).collect();
     let mut value = json!({
-        "names": scene.names.iter().map(|name| escape(name)).collect::<Vec<_>>(),
-        "titles": (0..scene.dimension()).map(|j| escape(&scene.title(j))).collect::<Vec<_>>(),
+        "names": scene.names,
+        "titles": (0..scene.dimension()).map(|j| scene.title(j)).collect::<Vec<_>>(),
         "valueName": scene.value_name(),
         "time": scene.time_name(),
         "group": scene.group_steps,
@@ -89,7 +89,7 @@ fn everything(scene: &Scene<'_>, view: &View, actions: EmbeddedActions) -> Embed
         "upper": range(|(_, upper)| upper),
         "cells": scene.grid.axes().iter().map(|axis| axis.cells()).collect::<Vec<_>>(),
         "strides": scene.grid.strides(),
-        "plain": (0..scene.dimension()).map(|j| escape(&plain(scene, j))).collect::<Vec<_>>(),
+        "plain": (0..scene.dimension()).map(|j| plain(scene, j)).collect::<Vec<_>>(),
         "units": scene.units,
         "periods": scene.periods,
         "scale": [scene.scale.from, scene.scale.to],
@@ -118,11 +118,11 @@ fn everything(scene: &Scene<'_>, view: &View, actions: EmbeddedActions) -> Embed
     if let (Value::Object(value), Value::Object(fields)) = (&mut value, actions.fields) {
         value.extend(fields);
     }
-    // Nothing in a script element may look like its end.
     if scene.trajectories.len() < scene.wanted_runs as usize {
         let (drawn, wanted) = (scene.trajectories.len(), scene.wanted_runs);
         left_out.push(format!("runs after the first {drawn} of {wanted}, which have many steps"));
     }
+    // Texts are as they are, and the script makes them safe where they become markup; nothing in its element may look like the end.
     Embedded { json: value.to_string().replace('<', "\\u003c"), left_out }
 }
 
@@ -200,7 +200,7 @@ fn regions(regions: &[Region], dimension: usize) -> Value {
 fn named(scene: &Scene<'_>) -> Value {
     let side = |side: &HalfSpace| json!((&side.normal, side.offset));
     let shape = |shape: &Vec<HalfSpace>| shape.iter().map(side).collect::<Value>();
-    let region = |region: &Outlined| json!({"name": escape(&region.name), "shapes": region.shapes.iter().map(shape).collect::<Value>()});
+    let region = |region: &Outlined| json!({"name": region.name, "shapes": region.shapes.iter().map(shape).collect::<Value>()});
     scene.named.iter().map(region).collect()
 }
 

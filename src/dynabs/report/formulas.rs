@@ -81,7 +81,7 @@ pub(super) fn partition(scene: &Scene<'_>) -> String {
     let axis = |(axis, name): (&GridAxis, &String)| {
         format!(
             "{} ∈ [{}, {}) in {} cells of width {}",
-            name,
+            escape(name),
             short(to_f64(axis.lower())),
             short(to_f64(axis.upper())),
             axis.cells(),
@@ -110,16 +110,22 @@ fn math(content: &str) -> String {
     format!("<math xmlns=\"http://www.w3.org/1998/Math/MathML\"><mrow>{content}</mrow></math>")
 }
 
-fn block(content: &str) -> String {
+/// A formula on lines of its own.
+pub(super) fn block(content: &str) -> String {
     format!(
         "<div class=\"wide\"><math xmlns=\"http://www.w3.org/1998/Math/MathML\" display=\"block\"><mrow>{content}</mrow></math></div>\n"
     )
 }
 
 fn matrix(m: &ExactMatrix) -> String {
-    let entry = |i, j| format!("<mtd><mn>{}</mn></mtd>", short(to_f64(m.get(i, j))));
-    let row = |i| format!("<mtr>{}</mtr>", (0..m.columns()).map(|j| entry(i, j)).collect::<String>());
-    let rows: String = (0..m.rows()).map(row).collect();
+    matrix_of((m.rows(), m.columns()), |i, j| to_f64(m.get(i, j)))
+}
+
+/// A matrix of so many rows and columns.
+pub(super) fn matrix_of((rows, columns): (usize, usize), entry: impl Fn(usize, usize) -> f64) -> String {
+    let entry = |i, j| format!("<mtd><mn>{}</mn></mtd>", short(entry(i, j)));
+    let row = |i| format!("<mtr>{}</mtr>", (0..columns).map(|j| entry(i, j)).collect::<String>());
+    let rows: String = (0..rows).map(row).collect();
     format!("<mtable>{rows}</mtable>")
 }
 

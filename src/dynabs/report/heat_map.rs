@@ -8,7 +8,9 @@ use super::palette::{LEVELS, colour};
 use super::paths::{arrows, runs};
 use super::regions::{hatch, regions};
 use super::scene::Scene;
+use super::tiles::tiles;
 use super::view::View;
+use std::ops::Range;
 
 /// The size of the frame of the map.
 const SIZE: (f64, f64) = (548.0, 420.0);
@@ -16,8 +18,7 @@ const SIZE: (f64, f64) = (548.0, 420.0);
 /// The value function over a plane, with regions, vector field and runs.
 pub(super) fn heat_map(scene: &Scene<'_>, view: &View) -> Plot {
     let id = "map";
-    let frame_of = if view.is_equal(scene) { Frame::equal } else { Frame::new };
-    let frame = frame_of(SIZE, view.range_across(scene), scene.range(view.up));
+    let frame = map_frame(scene, view);
     let (across, up) = view.names(scene);
     let inside = [
         group("heat", &squares(scene, view, &frame)),
@@ -45,6 +46,12 @@ pub(super) fn heat_map(scene: &Scene<'_>, view: &View) -> Plot {
     }
 }
 
+/// The frame of a map of a plane.
+pub(super) fn map_frame(scene: &Scene<'_>, view: &View) -> Frame {
+    let frame_of = if view.is_equal(scene) { Frame::equal } else { Frame::new };
+    frame_of(SIZE, view.range_across(scene), scene.range(view.up))
+}
+
 /// What a heat map shows, in words.
 fn description(scene: &Scene<'_>, view: &View) -> String {
     let at = view.at(scene, view.fixed());
@@ -60,39 +67,16 @@ fn description(scene: &Scene<'_>, view: &View) -> String {
     )
 }
 
-/// One path per colour, neighbours in a row merged.
+/// One path per colour.
 fn squares(scene: &Scene<'_>, view: &View, frame: &Frame) -> String {
-    let (columns, rows) = view.size(scene);
-    let (block_x, block_y) = view.blocks(scene);
-    let faces = &scene.faces()[view.up];
-    let mut paths = vec![String::new(); LEVELS];
-    for j in (0..rows).step_by(block_y as usize) {
-        let top = (j + block_y).min(rows);
-        let (y0, y1) = (frame.y.at(faces[j as usize]), frame.y.at(faces[top as usize]));
-        let mut add = |from: u32, to: u32, level: usize| {
-            let (x0, x1) = (view.face_across(scene, from), view.face_across(scene, to));
-            let (x0, x1) = (coordinate(frame.x.at(x0)), coordinate(frame.x.at(x1)));
-            paths[level] += &format!("M{x0} {}H{x1}V{}H{x0}Z", coordinate(y0), coordinate(y1));
-        };
-        let mut open = (0, None);
-        for i in (0..columns).step_by(block_x as usize) {
-            let right = (i + block_x).min(columns);
-            let least = (i..right).flat_map(|i| (j..top).map(move |j| (i, j))).map(|(i, j)| {
-                let (cell, step) = view.cell(scene, i, j);
-                scene.values.at(step)[cell.index()]
-            });
-            let here = Some(scene.scale.level(least.fold(1.0, f32::min)));
-            if here != open.1 {
-                if let (from, Some(level)) = open {
-                    add(from, i, level);
-                }
-                open = (i, here);
-            }
-        }
-        if let (from, Some(level)) = open {
-            add(from, columns, level);
-        }
-    }
+    let level = |columns: Range<u32>, rows: Range<u32>| {
+        let least = columns.flat_map(|i| rows.clone().map(move |j| (i, j))).map(|(i, j)| {
+            let (cell, step) = view.cell(scene, i, j);
+            scene.values.at(step)[cell.index()]
+        });
+        Some(scene.scale.level(least.fold(1.0, f32::min)))
+    };
+    let paths = tiles((scene, view), frame, LEVELS, level);
     let drawn = paths.iter().enumerate().filter(|(_, path)| !path.is_empty());
     drawn.map(|(level, path)| format!("<path fill=\"{}\" d=\"{path}\"/>", colour(level))).collect()
 }

@@ -32,7 +32,7 @@ pub(super) fn model(material: &InputMaterial<'_>) -> String {
         .map(|(name, _)| name.as_str())
         .collect();
     if !periodic.is_empty() {
-        text += &format!("<p>Periodic: {}.</p>\n", periodic.join(", "));
+        text += &format!("<p>Periodic: {}.</p>\n", escape(&periodic.join(", ")));
     }
     text += &task(run.problem.objective(), &run.document.value, scene, scene.horizon);
     text += &boxes("Unsafe region", &scene.names, scene.unsafe_);

@@ -21,6 +21,7 @@ use crate::system::Variable;
 use crate::task::Safety;
 use imdp::numeric::to_f64;
 use imdp::progress::Progress;
+use imdp::property::Verdict;
 
 /// A solved run with its controller, simulated: everything a report shows.
 pub struct InputMaterial<'a> {
@@ -55,8 +56,6 @@ impl<'a> InputMaterial<'a> {
         let simulation = Simulation::of_inputs(problem, controller, ParameterChoice::Random, MOST_STEPS);
         let tally = simulation.tally(&start, options.seed, options.runs, progress);
         let trajectories = drawn(options.drawn, |run| simulation.trajectory(&start, options.seed, run));
-        let threshold = problem.threshold().map(|threshold| threshold.to_f64());
-        let promised = controller.promised().bound;
         let upper = solution.values.upper[start_cell.index()];
         let states = problem.mode().states();
         let scene = Scene {
@@ -73,7 +72,7 @@ impl<'a> InputMaterial<'a> {
             horizon: problem.horizon(),
             group_steps: 1,
             safety: Safety::EveryStep,
-            threshold,
+            threshold: problem.threshold().map(|threshold| threshold.to_f64()),
             is_promised: true,
             values: StepValues::of_lattice(solution),
             start_is_given: problem.initial_state().is_some(),
@@ -100,11 +99,7 @@ impl<'a> InputMaterial<'a> {
             faces: faces(problem.grid()),
         };
         let scene = scene.finished();
-        let satisfied = threshold.and_then(|threshold| match () {
-            () if promised >= threshold => Some(true),
-            () if upper < threshold => Some(false),
-            () => None,
-        });
+        let satisfied = run.abstraction.verdict(problem, &solution.values).and_then(Verdict::decided);
         let view = View::first(&scene);
         Self { run, solution, controller, options, satisfied, upper, scene, view }
     }

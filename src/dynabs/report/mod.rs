@@ -23,6 +23,7 @@ mod page;
 mod palette;
 mod paths;
 mod picked;
+mod plan;
 mod regions;
 mod results;
 mod scene;
@@ -30,6 +31,7 @@ mod section;
 mod sides;
 mod tables;
 mod task;
+mod tiles;
 mod trade_off;
 mod values;
 mod view;
@@ -45,6 +47,7 @@ pub use trade_off::{TradeOff, TradeOffPoint};
 use heat_map::heat_map;
 use noise_plots::noise_plots;
 use over_time::over_time;
+use plan::plan;
 use scene::Scene;
 use section::section;
 use view::View;
@@ -59,9 +62,11 @@ pub struct Picture {
 }
 
 /// The plots of the page, as files: the value function with vector field and runs, its cross-section,
-/// states and inputs of the runs over time, the noise.
+/// states and inputs of the runs over time, the noise, the plan if one is followed.
 pub fn pictures(material: &Material<'_>) -> Vec<Picture> {
-    of_scene(&material.scene, &material.view)
+    let mut pictures = of_scene(&material.scene, &material.view);
+    pictures.extend(plan(material).map(|plot| Picture { name: plot.id.clone(), svg: plot.standalone() }));
+    pictures
 }
 
 /// The same for a run whose actions are inputs.

@@ -11,7 +11,7 @@ use super::scene::Scene;
 use super::section::section;
 use super::view::View;
 use super::words::Promise;
-use super::{formulas, input_formulas, tables, words};
+use super::{formulas, input_formulas, plan, tables, words};
 use crate::controller::Controller;
 use crate::model_file::Document;
 use crate::rendered::ended;
@@ -63,6 +63,7 @@ struct Page {
     section: String,
     over_time: String,
     noise: String,
+    plan: String,
     left_out: String,
     simulation: String,
     model: String,
@@ -92,6 +93,8 @@ struct Specifics {
     has_upper: bool,
     embedded: Embedded,
     model: String,
+    /// The section of the plan, if one is followed.
+    plan: String,
     sizes: String,
     method: &'static str,
 }
@@ -126,6 +129,7 @@ pub fn page(material: &Material<'_>) -> Result<String, ReportError> {
         has_upper: false,
         embedded: embed(scene, view, || steering(material)),
         model: formulas::model(material),
+        plan: plan::section(material),
         sizes: tables::sizes(material),
         method: METHOD,
     };
@@ -150,6 +154,7 @@ pub fn input_page(material: &InputMaterial<'_>) -> Result<String, ReportError> {
         has_upper: true,
         embedded: embed(scene, view, || inputs(material)),
         model: input_formulas::model(material),
+        plan: String::new(),
         sizes: tables::input_sizes(material),
         method: "",
     };
@@ -194,6 +199,7 @@ fn rendered(
         section: section(scene, view).inline(),
         over_time: words::over_time(scene),
         noise: words::noise(scene, view),
+        plan: specifics.plan,
         left_out,
         simulation: tables::simulation(scene),
         model: specifics.model,

@@ -80,6 +80,20 @@ pub(super) fn colour(level: usize) -> String {
     format!("#{:02x}{:02x}{:02x}", mix(0), mix(1), mix(2))
 }
 
+/// One of many colours that are told apart, none of them so dark that dark ink is hard to see on it, as `#rrggbb`.
+pub(super) fn distinct(number: usize) -> String {
+    // The golden angle: those that follow each other are far apart, and none comes again.
+    let hue = (number as f64 * 137.508).rem_euclid(360.0) / 60.0;
+    let light = [0.72, 0.6, 0.82][number % 3];
+    let chroma = 0.55 * (1.0_f64 - (2.0 * light - 1.0_f64).abs());
+    let part = |shift: f64| {
+        let place = (hue + shift).rem_euclid(6.0);
+        let share = (2.0 - (place - 3.0).abs()).clamp(0.0, 1.0);
+        ((light + chroma * (share - 0.5)) * 255.0).round() as u8
+    };
+    format!("#{:02x}{:02x}{:02x}", part(3.0), part(1.0), part(5.0))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,12 +6,27 @@ use super::palette::FIRST_LIGHT_LEVEL;
 use super::scene::Scene;
 use super::view::{Axis, View};
 use crate::controller::{Decision, Trajectory, TrajectoryStep};
+use crate::partition::CellId;
 
 /// The most arrows along one side.
 const MOST_ARROWS: u32 = 20;
 
 /// An arrow from the center of every few cells towards the mean of the next state, shortened to its place.
 pub(super) fn arrows(scene: &Scene<'_>, view: &View, frame: &Frame) -> String {
+    let paths = field((scene, view), frame, |cell, step| {
+        let level = scene.scale.level(scene.values.at(step)[cell.index()]);
+        Some((usize::from(level >= FIRST_LIGHT_LEVEL), scene.mean_successor(cell, step)?))
+    });
+    let drawn = ["on-dark", "on-light"].into_iter().zip(paths).filter(|(_, d)| !d.is_empty());
+    drawn.map(|(class, d)| format!("<path class=\"arrow {class}\" d=\"{d}\"/>")).collect()
+}
+
+/// Arrows of two kinds from the centers of every few cells to where these lead, shortened to their places.
+pub(super) fn field(
+    (scene, view): (&Scene<'_>, &View),
+    frame: &Frame,
+    leads: impl Fn(CellId, usize) -> Option<(usize, Vec<f64>)>,
+) -> [String; 2] {
     let (columns, rows) = view.size(scene);
     let (stride_x, stride_y) = (columns.div_ceil(MOST_ARROWS), rows.div_ceil(MOST_ARROWS));
     let place = (frame.width / f64::from(columns) * f64::from(stride_x))
@@ -20,20 +35,17 @@ pub(super) fn arrows(scene: &Scene<'_>, view: &View, frame: &Frame) -> String {
     for i in (stride_x / 2..columns).step_by(stride_x as usize) {
         for j in (stride_y / 2..rows).step_by(stride_y as usize) {
             let (cell, step) = view.cell(scene, i, j);
-            let Some(next) = scene.mean_successor(cell, step) else { continue };
+            let Some((kind, next)) = leads(cell, step) else { continue };
             let (from, to) = match view.across {
                 Axis::Time => (f64::from(i), f64::from(i) + 1.0),
                 Axis::State(dimension) => (scene.center(dimension, i), next[dimension]),
             };
             let (x, y) = (frame.x.at(from), frame.y.at(scene.center(view.up, j)));
             let (dx, dy) = (frame.x.at(to) - x, frame.y.at(next[view.up]) - y);
-            let light =
-                usize::from(scene.scale.level(scene.values.at(step)[cell.index()]) >= FIRST_LIGHT_LEVEL);
-            paths[light] += &arrow((x, y), (dx, dy), 0.85 * place);
+            paths[kind] += &arrow((x, y), (dx, dy), 0.85 * place);
         }
     }
-    let drawn = ["on-dark", "on-light"].into_iter().zip(paths).filter(|(_, d)| !d.is_empty());
-    drawn.map(|(class, d)| format!("<path class=\"arrow {class}\" d=\"{d}\"/>")).collect()
+    paths
 }
 
 /// An arrow as a path, no longer than `most`.

@@ -59,7 +59,7 @@ pub(super) fn boxes(name: &str, names: &[String], regions: &[Region]) -> String 
     let item = |region: &Region| {
         let side = |j: usize| {
             let (lower, upper) = sides(region, j);
-            let x = &names[j];
+            let x = escape(&names[j]);
             match (lower.is_finite(), upper.is_finite()) {
                 (true, true) => Some(format!("{} ≤ {x} &lt; {}", short(lower), short(upper))),
                 (true, false) => Some(format!("{x} ≥ {}", short(lower))),

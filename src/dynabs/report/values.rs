@@ -14,13 +14,19 @@ use std::borrow::Cow;
 pub(super) struct StepValues {
     /// By grouped steps elapsed, then by cell; a single entry if they stay the same for ever.
     by_step: Vec<Vec<f32>>,
+    /// Whether there were more.
+    has_forgotten: bool,
 }
 
 impl StepValues {
+    fn new(by_step: impl Iterator<Item = Vec<f32>>) -> Self {
+        Self { by_step: by_step.collect(), has_forgotten: false }
+    }
+
     /// The values of an answer and of the earlier steps that came with it.
     pub(super) fn of_answer(run: &Run, answer: &Answer) -> Self {
         let states = &run.abstraction.state_of_cell;
-        Self { by_step: with_earlier(answer).map(|values| of_states(states, &values)).collect() }
+        Self::new(with_earlier(answer).map(|values| of_states(states, &values)))
     }
 
     /// The same on arrival with each memory before, if there are several.
@@ -39,11 +45,11 @@ impl StepValues {
                 let kept = answer.solution.history.len() as u64;
                 let after = |step: u64| arrivals(step.max(1) as Memory * memories - memories + memory);
                 let steps = 0..=kept.min(horizon);
-                Self { by_step: steps.map(|step| of_states(&after(step), &answer.values.lower)).collect() }
+                Self::new(steps.map(|step| of_states(&after(step), &answer.values.lower)))
             }
             _ => {
                 let states = arrivals(memory);
-                Self { by_step: with_earlier(answer).map(|values| of_states(&states, &values)).collect() }
+                Self::new(with_earlier(answer).map(|values| of_states(&states, &values)))
             }
         };
         (0..memories).map(of_memory).collect()
@@ -53,7 +59,7 @@ impl StepValues {
     pub(super) fn of_lattice(solution: &LandingSolution) -> Self {
         let rounded = |values: &Vec<f64>| values.iter().map(|&value| rounded_down(value)).collect();
         let fewer = solution.history.iter().rev().skip(1);
-        Self { by_step: std::iter::once(&solution.values.lower).chain(fewer).map(rounded).collect() }
+        Self::new(std::iter::once(&solution.values.lower).chain(fewer).map(rounded))
     }
 
     /// The values on a lattice on arrival with each memory before, if there are several.
@@ -61,14 +67,20 @@ impl StepValues {
         let (question, memories) = (run.abstraction.question(), run.problem.cell_task().memories());
         let of_memory = |memory| {
             let values = question.lower_on_arrival(memory, solution);
-            Self { by_step: vec![values.into_iter().map(rounded_down).collect()] }
+            Self::new(std::iter::once(values.into_iter().map(rounded_down).collect()))
         };
         if memories <= 1 { vec![] } else { (0..memories).map(of_memory).collect() }
     }
 
     /// Forgets the values after a step.
     pub(super) fn forget_after(&mut self, step: usize) {
+        self.has_forgotten |= step < self.last_step();
         self.by_step.truncate(step + 1);
+    }
+
+    /// Whether values of later steps were forgotten.
+    pub(super) fn has_forgotten(&self) -> bool {
+        self.has_forgotten
     }
 
     /// The last step that is kept.

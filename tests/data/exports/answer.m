@@ -6,6 +6,16 @@ looks = fopen('looks', 'rb', 'ieee-le');
 out = fopen('octave', 'wb', 'ieee-le');
 t = load('controller.mat');
 memory = double(t.memories);
+% States may be whole numbers or singles; what they are computed with are doubles.
+carried = {};
+if has_memory
+    carried = {memory};
+end
+[status, u] = controller(ones(3, n), 0, carried{:});
+for kind = {'int8', 'single'}
+    [of_kind, u_of_kind] = controller(cast(ones(3, n), kind{1}), 0, carried{:});
+    assert(isequal(of_kind, status) && isequaln(u_of_kind, u) && isa(u_of_kind, 'double'));
+end
 for round = 1:rounds
     x = reshape(fread(looks, n * runs, 'double'), n, runs)';
     k = fread(looks, runs, 'uint32');

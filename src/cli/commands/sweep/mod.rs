@@ -34,15 +34,15 @@ pub struct SweepArguments {
     jobs: Option<u16>,
 
     /// Write a script for an array of Slurm jobs instead of running them.
-    #[arg(long, conflicts_with_all = ["jobs", "collect"])]
+    #[arg(long, conflicts_with_all = ["jobs", "collect", "json", "wanted"])]
     slurm: bool,
 
     /// Only collect what jobs have left.
     #[arg(long, conflicts_with_all = ["spec", "jobs"])]
     collect: bool,
 
-    /// Say which setting with at least this lower bound has the fewest transitions.
-    #[arg(long, value_name = "P", conflicts_with = "json")]
+    /// Say, below the table, which setting with at least this lower bound has the fewest transitions; not with --json or --slurm.
+    #[arg(long, value_name = "P", conflicts_with = "json", value_parser = probability)]
     wanted: Option<f64>,
 
     /// Print one JSON list instead of a table.
@@ -65,6 +65,11 @@ Examples:
   dynabs sweep spec.json -o out/sweep --wanted 0.99
   dynabs sweep spec.json -o out/sweep --slurm && sbatch --time=1:00:00 out/sweep/sweep.sbatch
   dynabs sweep --collect -o out/sweep";
+
+fn probability(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|p| (0.0..=1.0).contains(p));
+    number.ok_or_else(|| "expected a number from 0 to 1".to_owned())
+}
 
 /// Runs the subcommand.
 ///

@@ -187,18 +187,23 @@ impl Sweep {
         for setting in &self.settings {
             let mut document = original.clone();
             apply(&mut document, setting)?;
-            let follows_plan = document.value.pointer(FREE[0]).is_some();
-            let is_free =
-                |pointer: &String| follows_plan && FREE.iter().any(|free| pointer.starts_with(free));
+            let follows_plan = document.value.pointer(FREE[0]).is_some_and(|plan| !plan.is_null());
             let kept: Map<String, Value> = setting
                 .iter()
-                .filter(|(pointer, _)| !is_free(pointer))
+                .filter(|(pointer, _)| !(follows_plan && is_free(pointer)))
                 .map(|(p, v)| (p.clone(), v.clone()))
                 .collect();
             different.insert(format!("{follows_plan} {}", Value::Object(kept)));
         }
         Ok(different.len())
     }
+}
+
+/// Whether a JSON pointer is one of [`FREE`], or one of a part of these.
+fn is_free(pointer: &str) -> bool {
+    let below =
+        |free| pointer.strip_prefix(free).is_some_and(|rest: &str| rest.is_empty() || rest.starts_with('/'));
+    FREE.into_iter().any(below)
 }
 
 /// `/pointer=value`, as `--set` takes it.
@@ -278,5 +283,19 @@ mod tests {
         }
         let many: Vec<u32> = (0..101).collect();
         assert!(settings(json!({"/a": many, "/b": many})).is_err());
+    }
+
+    #[test]
+    fn pointers_are_free_as_a_whole() {
+        assert!(
+            ["/stabilizer/track", "/stabilizer/track/0/to", "/stabilizer/abstract_input/upper"]
+                .into_iter()
+                .all(is_free)
+        );
+        assert!(
+            !["/stabilizer", "/stabilizer/tracks", "/stabilizer/track~1", "/x/stabilizer/track"]
+                .into_iter()
+                .any(is_free)
+        );
     }
 }

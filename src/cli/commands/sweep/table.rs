@@ -95,17 +95,19 @@ impl Table {
         markdown(&self.header(), &lines)
     }
 
-    /// The setting with the fewest transitions of those that promise at least so much, in words.
+    /// The setting with the fewest transitions of those that promise at least so much, in words, and what was not compared.
     pub(super) fn cheapest(&self, wanted: f64) -> String {
         let promises = |line: &&Line| {
             line.figure(Figure::Lower).and_then(Value::as_f64).is_some_and(|lower| lower >= wanted)
         };
-        let size = |line: &&Line| {
+        let size = |line: &Line| {
             let size = line.figure(Figure::Transitions).or_else(|| line.figure(Figure::Choices));
-            size.and_then(Value::as_u64).unwrap_or(u64::MAX)
+            size.and_then(Value::as_u64)
         };
-        match self.lines.iter().filter(promises).min_by_key(size) {
-            Some(line) => {
+        let promising = || self.lines.iter().filter(promises);
+        let sized = promising().filter_map(|line| Some((size(line)?, line)));
+        let mut text = match sized.min_by_key(|(size, _)| *size) {
+            Some((_, line)) => {
                 let set = self.pointers.iter().zip(&line.values);
                 let set = set.filter_map(|(pointer, value)| Some(format!("{pointer}={}", value.as_ref()?)));
                 let set: Vec<String> = set.collect();
@@ -115,8 +117,18 @@ impl Table {
                     set.join(" ")
                 )
             }
-            None => format!("none of these settings has at least {wanted}\n"),
+            None => format!("none of these settings with a known size has at least {wanted}\n"),
+        };
+        let without_size = promising().filter(|line| size(line).is_none()).count();
+        let without_result = self.lines.iter().filter(|line| line.figure(Figure::Lower).is_none()).count();
+        for (number, what) in
+            [(without_size, "at least that bound, but no size"), (without_result, "no lower bound")]
+        {
+            if number > 0 {
+                text += &format!("not compared: {number} of {} jobs with {what}\n", self.lines.len());
+            }
         }
+        text
     }
 
     /// As a list of objects.

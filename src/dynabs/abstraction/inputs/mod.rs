@@ -28,6 +28,8 @@ use crate::task::CellTask;
 pub use error::InputsError;
 pub use export::{InputEncoding, InputModel};
 use imdp::numeric::Rational;
+use imdp::property::{Threshold, ThresholdComparison, Verdict};
+use imdp::solver::ValueBounds;
 use reach::Reach;
 use sampled::Proved;
 use std::time::{Duration, Instant};
@@ -165,6 +167,17 @@ impl InputAbstraction {
             None if decided.is_empty() => (0..self.task.num_cells() as u32).collect(),
             None => decided,
         }
+    }
+
+    /// Whether the threshold of the task is met from all initial cells, with bounds by cell; `None` if it has none.
+    pub fn verdict(&self, problem: &InputProblem, values: &ValueBounds) -> Option<Verdict> {
+        let probability = problem.threshold()?.clone();
+        let threshold = Threshold { comparison: ThresholdComparison::AtLeast, probability };
+        let of_cell = |cell: u32| {
+            let cell = CellId(cell).index();
+            threshold.decide(values.lower[cell], values.upper[cell])
+        };
+        Some(Verdict::in_all(self.initial(problem.initial_cell()).into_iter().map(of_cell)))
     }
 }
 

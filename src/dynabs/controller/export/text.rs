@@ -73,11 +73,18 @@ pub(super) fn comment(text: &str) -> String {
     text.chars().map(|c| if plain(c) { c } else { '_' }).collect()
 }
 
-/// Sentences as lines that begin with `start`.
+/// Sentences as lines that begin with `start`, in a comment of C, MATLAB or Python: nothing in them ends it.
+///
+/// Formulas and names of files may have line breaks, which would leave a comment of one line, and `*/`.
 pub(super) fn lines(sentences: &[String], start: &str) -> String {
     let mut lines = vec![];
     let mut line = String::from(start);
-    for word in sentences.iter().flat_map(|sentence| sentence.split(' ')) {
+    let harmless = |sentence: &String| -> String {
+        let apart = sentence.replace("*/", "* /").replace("/*", "/ *").replace("\"\"\"", "\"\" \"");
+        apart.chars().filter(|c| c.is_whitespace() || !c.is_control()).collect()
+    };
+    let harmless: Vec<String> = sentences.iter().map(harmless).collect();
+    for word in harmless.iter().flat_map(|sentence| sentence.split_whitespace()) {
         if line.len() + word.len() + 1 > WIDTH {
             lines.push(std::mem::replace(&mut line, String::from(start)));
         }
@@ -102,6 +109,15 @@ mod tests {
             ("c2_d".into(), "c_x".into(), "c".into())
         );
         assert_eq!(comment("a*/ b??/\n\"é\""), "a__ b_______");
+    }
+
+    #[test]
+    fn comments_end_where_they_are_to_end() {
+        let sentences = ["F a\n& G\r !b".to_owned(), "in dir*/*/a.hoa\u{7}\u{2028}end".to_owned()];
+        assert_eq!(lines(&sentences, " *"), " * F a & G !b in dir* / * /a.hoa end");
+        assert_eq!(lines(&["/*/".to_owned()], "%"), "% / * /");
+        let long: Vec<String> = (0..60).map(|i| format!("word\n{i}")).collect();
+        assert!(lines(&long, "%").lines().all(|line| line.starts_with("% ") && line.len() <= WIDTH));
     }
 
     #[test]

@@ -54,6 +54,9 @@ struct Scratch {
 /// Runs per parallel task.
 const RUNS_PER_TASK: u64 = 128;
 
+/// After so many grouped steps of a run somebody may have interrupted it.
+const STEPS_BETWEEN_QUESTIONS: u64 = 1024;
+
 impl<'a> Simulation<'a> {
     /// The loop of a problem whose actions are targets, closed with its controller; `noise` has the dimension of the state.
     ///
@@ -113,7 +116,7 @@ impl<'a> Simulation<'a> {
                     let first = task * RUNS_PER_TASK;
                     let last = (first + RUNS_PER_TASK).min(runs);
                     for run in first..last {
-                        tally.add(self.observe(start, seed, run, scratch, |_| {}));
+                        tally.add(self.observe(start, (seed, run), scratch, progress, |_| {}));
                     }
                     progress.advance(last - first);
                     tally
@@ -127,14 +130,25 @@ impl<'a> Simulation<'a> {
     /// Run number `run` from `start` with an observer that keeps of it what it wants: the run that [`run`](Self::run) and
     /// [`tally`](Self::tally) count under this number and seed.
     pub fn watch(&self, start: &[f64], seed: u64, run: u64, see: impl FnMut(Moment<'_>)) -> RunOutcome {
-        self.observe(start, seed, run, &mut self.scratch(), see)
+        self.observe(start, (seed, run), &mut self.scratch(), &(), see)
+    }
+
+    /// The same; it ends early, unfinished, when `progress` is interrupted.
+    pub(super) fn watch_until(
+        &self,
+        start: &[f64],
+        numbers: (u64, u64),
+        progress: &dyn Progress,
+        see: impl FnMut(Moment<'_>),
+    ) -> RunOutcome {
+        self.observe(start, numbers, &mut self.scratch(), progress, see)
     }
 
     /// The run from `start` with the noise of every group of steps written by `draw`.
     pub(super) fn with_noise(&self, start: &[f64], run: u64, draw: impl FnMut(&mut [f64])) -> RunOutcome {
         let mut draw = draw;
         let draw = |_: &mut ChaCha12Rng, noise: &mut [f64]| draw(noise);
-        self.observe_with(start, (0, run), &mut self.scratch(), draw, |_| {})
+        self.observe_with(start, (0, run), (&mut self.scratch(), &()), draw, |_| {})
     }
 
     fn scratch(&self) -> Scratch {
@@ -152,19 +166,20 @@ impl<'a> Simulation<'a> {
     fn observe(
         &self,
         start: &[f64],
-        seed: u64,
-        run: u64,
+        numbers: (u64, u64),
         scratch: &mut Scratch,
+        progress: &dyn Progress,
         see: impl FnMut(Moment<'_>),
     ) -> RunOutcome {
-        self.observe_with(start, (seed, run), scratch, |rng, noise| self.motion.draw(rng, noise), see)
+        let draw = |rng: &mut ChaCha12Rng, noise: &mut [f64]| self.motion.draw(rng, noise);
+        self.observe_with(start, numbers, (scratch, progress), draw, see)
     }
 
     fn observe_with(
         &self,
         start: &[f64],
         (seed, run): (u64, u64),
-        scratch: &mut Scratch,
+        (scratch, progress): (&mut Scratch, &dyn Progress),
         mut draw: impl FnMut(&mut ChaCha12Rng, &mut [f64]),
         mut see: impl FnMut(Moment<'_>),
     ) -> RunOutcome {
@@ -181,7 +196,9 @@ impl<'a> Simulation<'a> {
             self.witness.see(&mut seen, x);
             let decision = self.controller.control(x, outcome.steps, &mut memory, u);
             let step = outcome.steps * d as u64;
-            if !matches!(decision, Decision::Act { .. }) || outcome.steps >= self.most_steps {
+            let is_given_up = outcome.steps >= self.most_steps
+                || outcome.steps.is_multiple_of(STEPS_BETWEEN_QUESTIONS) && progress.is_interrupted();
+            if !matches!(decision, Decision::Act { .. }) || is_given_up {
                 see(Moment { step, x, u: None, decision: Some(decision) });
                 outcome.end = End::from(decision);
                 outcome.satisfied_at_instants = self.witness.is_satisfied(&seen, outcome.end);

@@ -3,6 +3,7 @@
 use super::RunOutcome;
 use super::runs::{Moment, Simulation};
 use crate::controller::Decision;
+use imdp::progress::Progress;
 
 /// One simulated run.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,8 +33,18 @@ impl Simulation<'_> {
     /// Run number `run` from `start`, step by step: the one that [`run`](Self::run) and
     /// [`tally`](Self::tally) count under this number and seed.
     pub fn trajectory(&self, start: &[f64], seed: u64, run: u64) -> Trajectory {
+        self.trajectory_until(start, (seed, run), &())
+    }
+
+    /// The same for a seed and the number of a run; it ends early, unfinished, when `progress` is interrupted.
+    pub fn trajectory_until(
+        &self,
+        start: &[f64],
+        (seed, run): (u64, u64),
+        progress: &dyn Progress,
+    ) -> Trajectory {
         let mut steps = Vec::new();
-        let outcome = self.watch(start, seed, run, |Moment { step, x, u, decision }| {
+        let outcome = self.watch_until(start, (seed, run), progress, |Moment { step, x, u, decision }| {
             let (state, input) = (x.to_vec(), u.map(<[f64]>::to_vec));
             steps.push(TrajectoryStep { step, state, input, decision });
         });
