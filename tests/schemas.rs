@@ -97,6 +97,7 @@ fn every_output_is_what_its_schema_says() {
     outputs.push(("verification", run(&["verify", "room.cert", "two", "--json"])));
     outputs.push(("explanation", run(&["explain", "room", "--json"])));
     outputs.push(("explanation", run(&["explain", "two", "--json"])));
+    outputs.push(("explanation", run(&["explain", "car", "--json"])));
     let fresh: String = (0..60).map(|i| format!("{}\n", 0.01 * f64::from(i % 7) - 0.03)).collect();
     fs::write(at.join("fresh.csv"), fresh).unwrap();
     outputs.push(("validation", run(&["validate", "room", "--samples", "fresh.csv", "--json"])));

@@ -159,11 +159,9 @@ pub(super) fn compile_inputs(
             text += &format!("  {:<13}{} ({:.1} MB)\n", "written", output.display(), bytes as f64 / 1e6);
             text += unasked.left_out.as_deref().unwrap_or_default();
         }
+        text += &explanation.map_or(String::new(), |explanation| explanation.to_string());
         text += &result.as_ref().map_or(String::new(), |result| result.text(initial, wanted.verbose));
         print(&text)?;
-    }
-    if let Some(explanation) = explanation {
-        print(&explanation.to_string())?;
     }
     Ok(result.map_or(ExitCode::SUCCESS, |result| result.exit_code()))
 }
