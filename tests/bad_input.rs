@@ -26,10 +26,17 @@ const MISTAKES: &[Mistake] = &[
     mistake(ONE_LAYER, "/dynamics/A=[[0.1,0.2],[0.3,0.6]]", &["/dynamics/A", "singular"]),
     mistake(ONE_LAYER, "/dynamics/B=[[1],[0]]", &["/dynamics", "uncontrollable", "rank 1"]),
     mistake(ONE_LAYER, "/dynamics/A=[[2,1],[0]]", &["/dynamics/A/1", "1 number", "2 numbers"]),
-    mistake(ONE_LAYER, "/dynamics/A=[[2,1],[0,null]]", &["/dynamics/A/1/1", "null", "f64"]),
+    mistake(ONE_LAYER, "/dynamics/A=[[2,1],[0,null]]", &["/dynamics/A/1/1", "null", "a number, such as 0.5"]),
     mistake(ONE_LAYER, "/dynamics/A=[[2,1],[0,1e999]]", &["/dynamics/A"]),
     mistake(ONE_LAYER, "/dynamics/B=[[0.5]]", &["/dynamics/B", "1 row", "2 rows"]),
-    mistake(ONE_LAYER, "/dynamics/q=[1,2,3]", &["/dynamics/q", "3 numbers"]),
+    mistake(ONE_LAYER, "/dynamics/B=[[0.5,1]]", &["1 row", "2 rows", "such as [[0.5], [1]]"]),
+    mistake(ONE_LAYER, "/dynamics/A=5", &["/dynamics/A", "a list of rows, such as [[1, 0], [0, 1]]"]),
+    mistake(
+        ONE_LAYER,
+        "/dynamics/A=[[0,1],[0,0]]",
+        &["/dynamics/A", "singular", "discrete-time", "\"sample_time\""],
+    ),
+    mistake(ONE_LAYER, "/dynamics/q=[1,2,3]", &["/dynamics/q", "3 numbers", "such as [1, 2]"]),
     mistake(ONE_LAYER, "/dynamics/group_steps=1", &["/dynamics/group_steps", "rank 1", "\"auto\" or 2"]),
     mistake(ONE_LAYER, "/dynamics/group_steps=0", &["/dynamics/group_steps", "positive integer or \"auto\""]),
     mistake(ONE_LAYER, "/dynamics/B=[[],[]]", &["/dynamics/B", "no inputs", "leave B and /input out"]),
@@ -238,7 +245,7 @@ fn mistakes_in_files_are_named() {
         ("{\"name\": \"x\"} trailing", ["line 1", "trailing"]),
         ("{\n  // a car\n  \"name\": \"x\"}", ["line 2", "JSON has no comments"]),
         ("{\"name\": /* a car */ \"x\"}", ["line 1, column 10", "JSON has no comments"]),
-        ("[]", ["m.json", "struct ModelFile"]),
+        ("[]", ["m.json", "an object, in { and }"]),
         ("{\"name\": \"x\"}", ["no field `dynamics`", "m.json"]),
     ] {
         fs::write(&file, text).unwrap();

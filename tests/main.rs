@@ -43,6 +43,7 @@ mod references;
 mod reliability;
 mod report;
 mod riccati;
+mod schemas;
 mod search;
 mod simulate;
 mod solution;

@@ -1,14 +1,32 @@
-//! The commands of the README are run as they stand there.
+//! The commands of the README are run as they stand there, and print what it shows.
 use crate::common::root;
 use assert_cmd::cargo::cargo_bin;
 use std::fs;
 use std::process::Command;
 use tempfile::TempDir;
 
-/// The lines of all blocks of shell commands.
-fn commands(text: &str) -> Vec<String> {
-    let blocks = text.split("```sh\n").skip(1).map(|rest| rest.split("```").next().unwrap());
-    blocks.flat_map(str::lines).map(str::to_owned).collect()
+/// A block of commands, and what the text shows of the output of the last one.
+struct Block {
+    commands: Vec<String>,
+    shown: Option<String>,
+}
+
+fn blocks(text: &str) -> Vec<Block> {
+    let block = |rest: &str| {
+        let (commands, after) = rest.split_once("```\n").unwrap();
+        let shown = after.trim_start().strip_prefix("```text\n").and_then(|shown| shown.split("```").next());
+        Block { commands: commands.lines().map(str::to_owned).collect(), shown: shown.map(str::to_owned) }
+    };
+    text.split("```sh\n").skip(1).map(block).collect()
+}
+
+/// Whether every line is the one that is shown; `…` at its end stands for more.
+fn is_shown(shown: &str, output: &str) -> bool {
+    let is_line = |(shown, line): (&str, &str)| match shown.strip_suffix('…') {
+        Some(beginning) => line.starts_with(beginning),
+        None => line == shown,
+    };
+    shown.lines().count() == output.lines().count() && shown.lines().zip(output.lines()).all(is_line)
 }
 
 #[test]
@@ -20,21 +38,31 @@ fn its_commands_work_in_this_order() {
         #[cfg(unix)]
         std::os::unix::fs::symlink(root().join(name), scratch.path().join(name)).unwrap();
     }
-    let mut ran = 0;
-    for line in commands(&readme) {
-        // This test is run by `cargo test`; programs are those that it has built.
-        let line = line.replace("cargo run --release --bin dynabs-compile --", "dynabs-compile");
-        let (program, arguments) = line.split_once(' ').unwrap();
-        let path = match program {
-            "dynabs-compile" | "dynabs-check" => cargo_bin(program),
-            "cargo" if arguments == "test" => continue,
-            other => panic!("{other}: a program that this test does not know, in {line}"),
-        };
-        let shell = format!("'{}' {arguments}", path.display());
-        let output = Command::new("sh").args(["-c", &shell]).current_dir(scratch.path()).output().unwrap();
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{line}\n{said}");
-        ran += 1;
+    let blocks = blocks(&readme);
+    assert_eq!(blocks[0].commands[0], "cargo install --path .", "what a newcomer does first");
+    let (mut ran, mut compared) = (0, 0);
+    for Block { commands, shown } in &blocks {
+        let mut printed = String::new();
+        for line in commands {
+            let (program, arguments) = line.split_once(' ').unwrap();
+            let path = match program {
+                "dynabs" => cargo_bin(program),
+                // This test is run by `cargo test`: the programs are those that it has built.
+                "cargo" if arguments == "install --path ." => continue,
+                other => panic!("{other}: a program that this test does not know, in {line}"),
+            };
+            let shell = format!("'{}' {arguments}", path.display());
+            let output =
+                Command::new("sh").args(["-c", &shell]).current_dir(scratch.path()).output().unwrap();
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{line}\n{said}");
+            printed = String::from_utf8(output.stdout).unwrap();
+            ran += 1;
+        }
+        if let Some(shown) = shown {
+            assert!(is_shown(shown, &printed), "shown:\n{shown}\nprinted:\n{printed}");
+            compared += 1;
+        }
     }
-    assert!(ran >= 9, "{ran} commands");
+    assert!(ran >= 10 && compared >= 1, "{ran} commands, {compared} outputs");
 }

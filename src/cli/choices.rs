@@ -63,13 +63,3 @@ impl From<NamesChoice> for Names {
         }
     }
 }
-
-/// What a JSON Schema is of, as `--schema` names it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SchemaName {
-    /// The model file.
-    #[default]
-    Model,
-    /// The file for `--search`.
-    Search,
-}

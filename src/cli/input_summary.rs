@@ -1,13 +1,14 @@
 //! What came of a problem whose actions are inputs, for people and programs.
 
+use super::ending::{Ending, value};
+use super::summary::{budget, fixed_beforehand};
 use super::{CliError, thousands};
 use dynabs::abstraction::inputs::{InputAbstraction, InputModel};
 use dynabs::guarantee::{Event, Evidence, Guarantee, SampleEvidence, lower_bound_text};
 use dynabs::landing::LandingSolution;
 use dynabs::problem::{Components, InputNoise, InputProblem};
-use dynabs::statistics::Allocation;
 use dynabs::system::Variable;
-use imdp::numeric::{round_decimal_up, shortest_decimal};
+use imdp::numeric::shortest_decimal;
 use imdp::property::Verdict;
 use imdp::solver::{Answer, SolverOptions, Status};
 use serde::Serialize;
@@ -39,6 +40,11 @@ pub(super) struct InputResult {
     pub(super) seconds: f64,
     #[serde(skip)]
     ended: bool,
+    /// Whether the threshold is met or missed, or none was given.
+    #[serde(skip)]
+    decided: bool,
+    #[serde(skip)]
+    threshold: Option<String>,
 }
 
 impl InputResult {
@@ -54,6 +60,8 @@ impl InputResult {
         let upper = initial.iter().map(|cell| at(&solution.values.upper, cell)).fold(0.0, f64::max);
         let decided = abstraction.decided();
         let verdict = abstraction.verdict(problem, &solution.values);
+        let ended =
+            matches!(solution.status, Status::HorizonReached | Status::Converged | Status::PrecisionLimit);
         Self {
             lower,
             upper,
@@ -65,13 +73,9 @@ impl InputResult {
             status: solution.status.to_string(),
             steps: solution.iterations,
             seconds: time.as_secs_f64(),
-            ended: match verdict {
-                None => matches!(
-                    solution.status,
-                    Status::HorizonReached | Status::Converged | Status::PrecisionLimit
-                ),
-                Some(verdict) => verdict != Verdict::Unknown,
-            },
+            threshold: problem.threshold().map(|threshold| format!(">={threshold}")),
+            ended,
+            decided: verdict.map_or(ended, |verdict| verdict != Verdict::Unknown),
         }
     }
 
@@ -107,38 +111,45 @@ impl InputResult {
 
     /// 1 if the threshold is missed, 3 if that is undecided, else 0.
     pub(super) fn exit_code(&self) -> ExitCode {
-        match (self.satisfied, self.ended) {
+        match (self.satisfied, self.decided) {
             (Some(false), _) => ExitCode::from(1),
             (_, false) => ExitCode::from(3),
             (_, true) => ExitCode::SUCCESS,
         }
     }
 
-    /// Two lines for people.
-    pub(super) fn text(&self, initial: &str) -> String {
-        let verdict = self.satisfied.map_or(String::new(), |satisfied| format!("{satisfied}   "));
-        let exported = self.exported.map_or(String::new(), |[lower, upper]| {
-            format!(
-                "  the model in files is looser: its value is in [{}, {}]\n",
-                lower_bound_text(lower),
-                shortest_decimal(round_decimal_up(upper, 6)),
-            )
-        });
-        format!(
-            "  {verdict}value in [{}, {}] {initial}; best {}, mean {} over cells   {}, {} steps, {:.1?}\n{exported}",
-            lower_bound_text(self.lower),
-            shortest_decimal(round_decimal_up(self.upper, 6)),
-            lower_bound_text(self.best),
-            lower_bound_text(self.mean),
-            self.status,
-            self.steps,
-            Duration::from_secs_f64(self.seconds)
-        )
+    /// What it came to, for people: the verdict last.
+    pub(super) fn text(&self, place: &str, verbose: bool) -> String {
+        let ended = format!("{}, {} steps", self.status, self.steps);
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        if verbose {
+            let time = Duration::from_secs_f64(self.seconds);
+            let _ = writeln!(text, "  solved: [{:?}, {:?}], {ended}, {time:.1?}", self.lower, self.upper);
+        }
+        let (best, mean) = (lower_bound_text(self.best), lower_bound_text(self.mean));
+        let _ = writeln!(text, "  over cells: best {best}, mean {mean}");
+        if let Some(exported) = self.exported {
+            let _ = writeln!(text, "  the model in files is looser: its {}", value(exported));
+        }
+        let ending = Ending {
+            verdict: match (self.satisfied, &self.threshold) {
+                (Some(true), _) => "true",
+                (Some(false), _) => "false",
+                (None, Some(_)) => "undecided",
+                (None, None) => "",
+            },
+            bounds: Some([self.lower, self.upper]),
+            threshold: self.threshold.as_deref(),
+            place,
+            status: (!self.ended).then_some(&ended),
+        };
+        text + &ending.line()
     }
 }
 
-/// The size of things.
-pub(super) fn summary(problem: &InputProblem, abstraction: &InputAbstraction) -> String {
+/// The size of things, and how the confidence is spent for whoever wants to know everything.
+pub(super) fn summary(problem: &InputProblem, abstraction: &InputAbstraction, verbose: bool) -> String {
     let mut text = format!("{} (actions are inputs)\n", problem.name());
     let mut line = |name: &str, value: String| {
         // Writing to a string cannot fail.
@@ -186,10 +197,11 @@ pub(super) fn summary(problem: &InputProblem, abstraction: &InputAbstraction) ->
                 settings => format!(", of {settings} settings together"),
             };
             line("bounds", format!("hold together with confidence {confidence}{sweep}"));
-            let spent = |a: &Allocation| format!("{} {:.2e} over {} events", a.family, a.beta, a.events);
-            line("budget", samples.budget.iter().map(spent).collect::<Vec<_>>().join(", "));
-            line("unseen mass", format!("at most {:.6}", samples.unseen_mass));
-            line("fixed", crate::summary::fixed_beforehand(&guarantee));
+            if verbose {
+                line("budget", budget(samples));
+                line("unseen mass", format!("at most {:.6}", samples.unseen_mass));
+            }
+            line("fixed", fixed_beforehand(&guarantee));
         }
         Evidence::Known { unlisted, .. } => {
             let noise = |j: usize| {

@@ -5,6 +5,7 @@ use crate::together::exchanged;
 use crate::{CliError, use_threads};
 use clap::Args;
 use imdp::model::{limit_memory, peak_memory};
+use std::time::Duration;
 
 /// Parses a number of bytes such as `500M` or `16G`.
 ///
@@ -52,8 +53,14 @@ impl Resources {
     }
 }
 
+/// How long phases took, with the most memory used so far.
+pub(crate) fn times(phases: &[(&str, Duration)]) -> String {
+    let times: Vec<_> = phases.iter().map(|(name, time)| format!("{name} {time:.1?}")).collect();
+    format!("times: {}{}\n", times.join(", "), peak())
+}
+
 /// The time that went to other processes and the most memory used so far, for people; nothing where the system does not tell.
-pub(crate) fn peak() -> String {
+fn peak() -> String {
     let memory = peak_memory().map(|bytes| format!("; peak memory {} MiB", thousands_of_mib(bytes)));
     exchanged() + &memory.unwrap_or_default()
 }

@@ -1,10 +1,11 @@
 //! Answers as they are printed: a table for people, objects for programs.
 
+use super::ending::{Ending, value};
 use dynabs::guarantee::Claim;
 use imdp::compare::{InitialResult, RecordedResult};
 use imdp::evaluation::Evaluation;
 use imdp::model::{IntervalMdp, StateId};
-use imdp::property::{Compound, Property, Verdict};
+use imdp::property::{Compound, Property, Question, Verdict};
 use imdp::solver::{Answer, Inexact, Status};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -23,6 +24,12 @@ pub struct PropertyResult {
     /// Whether the question was answered: it ended by itself and no threshold lies between the bounds.
     #[serde(skip)]
     decided: bool,
+    /// Whether the computation ended by itself.
+    #[serde(skip)]
+    ended: bool,
+    /// What the value is compared with.
+    #[serde(skip)]
+    threshold: Option<String>,
 }
 
 /// JSON has no infinity: it is written as PRISM does, in quotation marks.
@@ -45,7 +52,11 @@ impl PropertyResult {
         let verdict = answer.verdict;
         let (status, steps) = (answer.solution.status, answer.solution.iterations);
         let result = Self::of_states(property.to_string(), model, in_state, verdict, (status, steps, time));
-        result.undecided_because(answer.inexact)
+        let threshold = match &property.question {
+            Question::Value(_) => None,
+            Question::Verdict(_, threshold) | Question::ForAll(threshold) => Some(threshold.to_string()),
+        };
+        Self { threshold, ..result.undecided_because(answer.inexact) }
     }
 
     /// Summarises an expression.
@@ -105,7 +116,7 @@ impl PropertyResult {
             error: None,
         };
         let decided = verdict.map_or(ended, |verdict| verdict != Verdict::Unknown);
-        Self { recorded, guarantee: None, decided }
+        Self { recorded, guarantee: None, decided, ended, threshold: None }
     }
 
     /// A property without an answer.
@@ -118,7 +129,7 @@ impl PropertyResult {
             error: Some(error),
             ..RecordedResult::default()
         };
-        Self { recorded, guarantee: None, decided: false }
+        Self { recorded, guarantee: None, decided: false, ended: false, threshold: None }
     }
 
     /// Bounds on the value, if it is a probability.
@@ -143,72 +154,72 @@ pub(super) fn exit_code(results: &[PropertyResult]) -> ExitCode {
 /// So many initial states are listed at most.
 const LISTED: usize = 10;
 
-/// The results as a table.
-pub(super) fn table(results: &[PropertyResult]) -> String {
-    let mut text = String::new();
-    for PropertyResult { recorded: result, guarantee, decided } in results {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "{}", result.property);
+/// The results as a table: what there is to know about each, and its verdict last.
+pub(super) fn table(results: &[PropertyResult], verbose: bool) -> String {
+    results.iter().map(|result| result.text(verbose)).collect()
+}
+
+impl PropertyResult {
+    fn text(&self, verbose: bool) -> String {
+        let result = &self.recorded;
+        let mut text = format!("{}\n", result.property);
         if result.error.is_some() {
-            let _ = writeln!(text, "  not answered");
-            continue;
+            return text + "  not answered\n";
         }
-        let caveat = guarantee.as_ref().and_then(|claim| claim.caveat.as_ref());
-        let verdict = match (result.satisfied, *decided) {
-            // Never a bare `true` where a reader may take it for more.
-            (Some(true), _) if caveat.is_some() => "true at grouped instants only   ".to_owned(),
-            (Some(satisfied), _) => format!("{satisfied}   "),
-            (None, true) => String::new(),
-            (None, false) => "undecided   ".to_owned(),
-        };
-        let place = match result.initial.len() {
-            0 => "the initial state".to_owned(),
-            count => format!("{count} initial states"),
-        };
-        let _ = writeln!(
-            text,
-            "  {verdict}{}at {place}   {}, {} steps, {:.1?}",
-            value(result.lower, result.upper),
-            result.status.as_deref().unwrap_or("unknown"),
-            result.steps.unwrap_or(0),
-            Duration::from_secs_f64(result.seconds.unwrap_or(0.0)),
-        );
-        if let Some(reason) = &result.undecided {
-            let _ = writeln!(text, "  {reason}");
+        // Writing to a string cannot fail.
+        let bounds = result.lower.zip(result.upper).map(|(lower, upper)| [lower, upper]);
+        let ended =
+            format!("{}, {} steps", result.status.as_deref().unwrap_or("unknown"), result.steps.unwrap_or(0));
+        if verbose {
+            let time = Duration::from_secs_f64(result.seconds.unwrap_or(0.0));
+            let digits = bounds.map_or(String::new(), |bounds| format!("{}, ", all_digits(bounds)));
+            let _ = writeln!(text, "  solved: {digits}{ended}, {time:.1?}");
         }
         for InitialResult { state, lower, upper, satisfied } in result.initial.iter().take(LISTED) {
             let verdict = satisfied.map_or(String::new(), |satisfied| format!("{satisfied}   "));
-            let _ = writeln!(
-                text,
-                "    state {state}: {}",
-                format!("{verdict}{}", value(*lower, *upper)).trim_end()
-            );
+            let value = lower.zip(*upper).map_or(String::new(), |(lower, upper)| value([lower, upper]));
+            let _ = writeln!(text, "    state {state}: {}", format!("{verdict}{value}").trim_end());
         }
         if result.initial.len() > LISTED {
-            let _ = writeln!(
-                text,
-                "    and {} more; --values writes those of all states",
-                result.initial.len() - LISTED
-            );
+            let more = result.initial.len() - LISTED;
+            let _ = writeln!(text, "    and {more} more; --values writes those of all states");
         }
-        if let Some(claim) = guarantee {
+        let caveat = self.guarantee.as_ref().and_then(|claim| claim.caveat.as_ref());
+        if let Some(claim) = &self.guarantee {
             let covered = if claim.covered { "covered" } else { "not covered" };
             let caveat = caveat.map_or(String::new(), |caveat| format!("; {caveat}"));
             let _ = writeln!(text, "  {covered}: {}{caveat}", claim.text);
         }
+        if let Some(reason) = &result.undecided {
+            let _ = writeln!(text, "  {reason}");
+        }
+        let place = match result.initial.len() {
+            0 => "at the initial state".to_owned(),
+            count => format!("at {count} initial states"),
+        };
+        let ending = Ending {
+            verdict: match (result.satisfied, self.decided) {
+                // Never a bare `true` where a reader may take it for more.
+                (Some(true), _) if caveat.is_some() => "true at grouped instants only",
+                (Some(true), _) => "true",
+                (Some(false), _) => "false",
+                (None, true) => "",
+                (None, false) => "undecided",
+            },
+            bounds,
+            threshold: self.threshold.as_deref(),
+            place: &place,
+            status: (!self.ended).then_some(&ended),
+        };
+        text + &ending.line()
     }
-    text
 }
 
-/// `value in […] `, with as many digits as the bounds are worth; nothing for formulas.
-fn value(lower: Option<f64>, upper: Option<f64>) -> String {
-    let (Some(lower), Some(upper)) = (lower, upper) else { return String::new() };
-    if lower == upper && lower.is_infinite() {
-        return "value infinite ".to_owned();
-    }
+/// Bounds with as many digits as they are worth.
+fn all_digits([lower, upper]: [f64; 2]) -> String {
     let width = upper - lower;
     let digits = if width > 0.0 { (2.0 - width.log10()).clamp(6.0, 15.0) as usize } else { 12 };
-    format!("value in [{lower:.digits$}, {upper:.digits$}] ")
+    format!("[{lower:.digits$}, {upper:.digits$}]")
 }
 
 #[cfg(test)]
@@ -231,9 +242,11 @@ mod tests {
             PropertyResult::new(&property, &answer, &model, Duration::ZERO)
         };
         let undecided = result(0);
-        let text = table(std::slice::from_ref(&undecided));
+        let text = table(std::slice::from_ref(&undecided), false);
         assert!(
-            text.contains("undecided") && text.contains("exact arithmetic would take too long"),
+            text.lines().last().unwrap().starts_with("  undecided   value ")
+                && text.contains("against >=0.4 at")
+                && text.contains("exact arithmetic would take too long"),
             "{text}"
         );
         assert!(undecided.recorded.satisfied.is_none() && undecided.recorded.undecided.is_some());

@@ -2,7 +2,7 @@
 
 use super::thousands;
 use dynabs::abstraction::Footprint;
-use dynabs::guarantee::Guarantee;
+use dynabs::guarantee::{Guarantee, SampleEvidence};
 use dynabs::run::Manifest;
 use imdp::model::available_memory;
 use serde_json::{Value, json};
@@ -42,8 +42,22 @@ pub(super) fn fixed_beforehand(guarantee: &Guarantee) -> String {
     if list.is_empty() { String::new() } else { format!("whatever the samples: {}", list.join(", ")) }
 }
 
-/// The summary of a run; `directory` is where it was written, if it was.
-pub(super) fn summary(manifest: &Manifest, directory: Option<&str>) -> String {
+/// The property that was not solved, on a line of its own.
+pub(super) fn property(property: &str) -> String {
+    let name = "property";
+    format!("  {name:<13}{property}\n")
+}
+
+/// How the confidence is spent.
+pub(super) fn budget(samples: &SampleEvidence) -> String {
+    let spent =
+        samples.budget.iter().map(|a| format!("{} {:.2e} over {} events", a.family, a.beta, a.events));
+    spent.collect::<Vec<_>>().join(", ")
+}
+
+/// The summary of a run; `directory` is where it was written, if it was. Whoever wants to know everything gets how the confidence
+/// is spent and the numbers of the lower layer, too.
+pub(super) fn summary(manifest: &Manifest, directory: Option<&str>, verbose: bool) -> String {
     let mut text = String::new();
     let mut line = |name: &str, value: String| {
         // Writing to a string cannot fail.
@@ -60,7 +74,7 @@ pub(super) fn summary(manifest: &Manifest, directory: Option<&str>) -> String {
             thousands(manifest.rows)
         ),
     );
-    if let Some(layers) = &manifest.stabilizer {
+    if let Some(layers) = manifest.stabilizer.as_ref().filter(|_| verbose) {
         let gain: Vec<_> = layers.gain.iter().map(|row| format!("{row:?}")).collect();
         line("gain K", gain.join(" "));
         let eigenvalues: Vec<_> =
@@ -70,7 +84,7 @@ pub(super) fn summary(manifest: &Manifest, directory: Option<&str>) -> String {
             line("Riccati", format!("relative residual {residual:.1e}"));
         }
     }
-    if let Some(plan) = &manifest.plan {
+    if let Some(plan) = manifest.plan.as_ref().filter(|_| verbose) {
         let (cells, targets) = (thousands(plan.cells), thousands(plan.targets));
         line("plan", format!("from {cells} cells to {targets} targets; enabled is what U' allows around it"));
     }
@@ -85,13 +99,10 @@ pub(super) fn summary(manifest: &Manifest, directory: Option<&str>) -> String {
                 "intervals",
                 format!("hold together with confidence {confidence}{sweep}, from {number} samples"),
             );
-            let split: Vec<_> = samples
-                .budget
-                .iter()
-                .map(|a| format!("{} {:.2e} over {} events", a.family, a.beta, a.events))
-                .collect();
-            line("budget", split.join(", "));
-            line("unseen mass", format!("at most {:.6}", samples.unseen_mass));
+            if verbose {
+                line("budget", budget(samples));
+                line("unseen mass", format!("at most {:.6}", samples.unseen_mass));
+            }
             line("fixed", fixed_beforehand(&manifest.guarantee));
         }
         (None, Some(_)) => line("intervals", "enclose the masses of the known distribution".into()),
@@ -100,7 +111,6 @@ pub(super) fn summary(manifest: &Manifest, directory: Option<&str>) -> String {
     if manifest.group_steps > 1 {
         line("one step", format!("stands for {} of the original system", manifest.group_steps));
     }
-    line("property", manifest.property.clone());
     if let Some(directory) = directory {
         let bytes: u64 = manifest.outputs.iter().map(|file| file.bytes).sum();
         line("written", format!("{directory} ({:.1} MB)", bytes as f64 / 1e6));

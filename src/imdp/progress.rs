@@ -8,10 +8,10 @@ pub trait Progress: Sync {
     fn start(&self, phase: &str, total: u64);
     /// So many more units are done.
     fn advance(&self, units: u64);
-    /// A computation without a known end has done so many iterations, and its bounds are so far apart (or still change by so
-    /// much).
-    fn iterate(&self, iterations: u64, distance: f64) {
-        let _ = (iterations, distance);
+    /// A computation has done so many iterations, of so many if that is known, and its bounds are so far apart (or still
+    /// change by so much).
+    fn iterate(&self, iterations: u64, of: Option<u64>, distance: f64) {
+        let _ = (iterations, of, distance);
     }
     /// The phase is over.
     fn finish(&self);

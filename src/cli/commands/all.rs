@@ -1,10 +1,11 @@
 //! `dynabs`: everything in one tool.
 
 use super::check;
-use super::compile::{CompileArguments, compile_or_init, schema, write_starter};
+use super::compile::{CompileArguments, compile_or_init};
+use super::init::write_starter;
 use super::sweep;
-use crate::choices::SchemaName;
 use crate::resources::Resources;
+use crate::schemas::SchemaName;
 use crate::together::require_one;
 use crate::{CliError, print};
 use clap::{CommandFactory, Parser, Subcommand};
@@ -26,13 +27,17 @@ pub struct Arguments {
 #[derive(Clone, Debug, Subcommand)]
 enum Command {
     /// Write a model file to start from.
+    #[command(after_help = "Example:\n  dynabs init my.json")]
     Init {
         /// The file, which must not exist.
         file: PathBuf,
     },
-    /// Print the JSON Schema of the model file, or of the file for compile --search.
+    /// Print the JSON Schema of the model file, or of something that is written or printed as JSON.
+    #[command(
+        after_help = "Examples:\n  dynabs schema > dynabs-problem.schema.json\n  dynabs schema manifest"
+    )]
     Schema {
-        /// Of which file.
+        /// Of what.
         #[arg(value_enum, default_value_t)]
         of: SchemaName,
     },
@@ -43,13 +48,17 @@ enum Command {
     #[command(flatten)]
     Check(check::Command),
     /// Print a script with which a shell completes this command.
+    #[command(
+        after_help = "Example:\n  dynabs completions bash > ~/.local/share/bash-completion/completions/dynabs"
+    )]
     Completions {
         /// The shell.
         shell: Shell,
     },
     /// Write the manual pages of this tool to a directory.
+    #[command(after_help = "Example:\n  dynabs man ~/.local/share/man/man1")]
     Man {
-        /// The directory, which must exist.
+        /// The directory, which is created.
         directory: PathBuf,
     },
 }
@@ -83,7 +92,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CliError> {
     }
     match &arguments.command {
         Command::Init { file } => write_starter(file, false)?,
-        Command::Schema { of } => print(&schema(*of))?,
+        Command::Schema { of } => print(&of.text()?)?,
         Command::Compile(arguments) => return compile_or_init(arguments, Some("compile")),
         Command::Sweep(arguments) => return sweep::run(arguments),
         Command::Check(command) => return check::run_command(command),

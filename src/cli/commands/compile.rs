@@ -2,13 +2,18 @@
 
 use super::compile_inputs;
 use super::explain::{HINT, is_low, is_soon_explained};
-use super::search::{Request, search, search_schema};
-use crate::choices::{SchemaName, format_names};
+use super::init::write_starter;
+use super::search::{Request, search};
+use crate::choices::format_names;
 use crate::limits::LimitArguments;
+use crate::model_text::{configured, read_model};
+use crate::phases::{FILES, Phase};
+use crate::progress::SOLVING;
 use crate::pruning::pruned;
-use crate::resources::{Resources, peak};
+use crate::resources::{Resources, times};
 use crate::results::{PropertyResult, exit_code, table};
-use crate::summary::{memory, memory_json, summary};
+use crate::schemas::SchemaName;
+use crate::summary::{memory, memory_json, property, summary};
 use crate::together::require_one;
 use crate::unasked::Unasked;
 use crate::{Bars, CliError, EncodingName, print, warn};
@@ -16,15 +21,13 @@ use clap::{Args, Parser};
 use dynabs::abstraction::{Abstraction, Footprint, compile};
 use dynabs::controller::Controller;
 use dynabs::explain::explain;
-use dynabs::model_file::{Document, SetArgument, StatedProblem, json_schema, starter_model};
+use dynabs::model_file::StatedProblem;
 use dynabs::problem::Problem;
 use dynabs::run::{Manifest, PruningReport, Staging, WriteOptions, solution_options, write_run};
-use imdp::files::{self, Outputs};
 use imdp::formats::Format;
 use imdp::ranks;
 use imdp::solver::Answer;
 use serde_json::{Value, json};
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -101,12 +104,16 @@ pub struct CompileArguments {
     #[arg(short, long)]
     quiet: bool,
 
+    /// Print how the confidence is spent, the gain, all digits, and how long each phase took, too.
+    #[arg(short, long, conflicts_with_all = ["quiet", "json"])]
+    verbose: bool,
+
     /// Write a starter model to FILE.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["model", "output", "schema"])]
     init: Option<PathBuf>,
 
-    /// Print the JSON Schema of the model file, or of the file for --search.
-    #[arg(long, value_name = "FILE", value_enum, num_args = 0..=1, default_missing_value = "model",
+    /// Print the JSON Schema of the model file, or of another file or output.
+    #[arg(long, value_name = "FILE", value_enum, num_args = 0..=1, default_missing_value = "problem",
         conflicts_with_all = ["model", "output"])]
     schema: Option<SchemaName>,
 
@@ -150,7 +157,7 @@ pub(super) fn compile_or_init(
 ) -> Result<ExitCode, CliError> {
     if let Some(of) = arguments.schema {
         require_one("--schema")?;
-        print(&schema(of))?;
+        print(&of.text()?)?;
     } else if let (Some(spec), Some(output)) = (&arguments.search, &arguments.output) {
         require_one("--search")?;
         let (json, quiet) = (arguments.json, arguments.quiet);
@@ -164,33 +171,6 @@ pub(super) fn compile_or_init(
     Ok(ExitCode::SUCCESS)
 }
 
-/// The JSON Schema of a file that users write.
-pub(super) fn schema(of: SchemaName) -> String {
-    match of {
-        SchemaName::Model => json_schema(),
-        SchemaName::Search => search_schema().to_owned(),
-    }
-}
-
-pub(super) fn write_starter(file: &Path, quiet: bool) -> Result<(), CliError> {
-    let shown = file.display();
-    let mut files = Outputs::default();
-    let written = files.write(file, |out| out.write_all(starter_model().as_bytes()));
-    written.and_then(|()| files.commit_new()).map_err(|error| match error.kind() {
-        io::ErrorKind::AlreadyExists => CliError::Input(format!(
-            "{shown}: found a file; expected a new name, since --init never overwrites"
-        )),
-        io::ErrorKind::NotFound => {
-            CliError::Input(format!("{shown}: found no such directory; expected one that exists"))
-        }
-        _ => CliError::writing(file, &error),
-    })?;
-    if !quiet {
-        print(&format!("Wrote {shown}. Try it:\n  dynabs-compile {shown} --dry-run\n"))?;
-    }
-    Ok(())
-}
-
 fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, CliError> {
     let start = Instant::now();
     let bars = Arc::new(Bars::new(arguments.quiet));
@@ -199,8 +179,15 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
         Staging::check(output, arguments.force)?;
     }
     let source = read_model(path)?;
-    let (document, mut notes) = configure(path, &source, arguments)?;
-    let problem = match document.stated()? {
+    let (document, mut notes) = configured(path, &source, &arguments.set, arguments.seed)?;
+    let hint = document.looks_continuous().map(|hint| hint.to_string());
+    let with_hint = |error: CliError| match (error, &hint) {
+        (CliError::Input(text), Some(hint)) => CliError::Input(format!("{text}\n  {hint}.")),
+        (error, _) => error,
+    };
+    let stated = document.stated().map_err(|error| with_hint(error.into()))?;
+    notes.extend(hint.clone());
+    let problem = match stated {
         StatedProblem::Targets(problem) => *problem,
         StatedProblem::Inputs(problem) => {
             ranks::require_same(&(arguments, &problem));
@@ -214,6 +201,7 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
                 prune: arguments.prune,
                 json: arguments.json,
                 quiet: arguments.quiet,
+                verbose: arguments.verbose,
                 dry_run: arguments.dry_run,
             };
             let sources = (&document, source.as_str());
@@ -229,9 +217,10 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
     }
     ranks::require_same(&(arguments, &problem));
     let mut phases = vec![("model file", start.elapsed())];
+    bars.expect(arguments.phases());
 
-    let mut abstraction =
-        compile(&problem, &*bars).map_err(|error| CliError::of_abstraction(&error, &document.name))?;
+    let mut abstraction = compile(&problem, &*bars)
+        .map_err(|error| with_hint(CliError::of_abstraction(&error, &document.name)))?;
     phases.extend(&abstraction.phases);
     // Until here there is nothing to clean up, and nothing to print.
     bars.catch_interrupts();
@@ -292,12 +281,13 @@ fn compile_model(arguments: &CompileArguments, path: &Path) -> Result<ExitCode, 
         let claim = abstraction.guarantee.claim(&abstraction.property, &abstraction.model, result.bounds());
         result.guarantee = Some(claim.map_err(|error| CliError::Failure(error.to_string()))?);
     }
-    let left_out = left_out.as_deref().unwrap_or_default();
-    let text = Texts { footprint: &abstraction.footprint, left_out, controller_bytes };
+    let text = Texts {
+        footprint: &abstraction.footprint,
+        left_out: left_out.unwrap_or_default(),
+        explanation: explanation.map_or(String::new(), |explanation| explanation.to_string()),
+        controller_bytes,
+    };
     report(arguments, &manifest, &text, &phases, &results)?;
-    if let Some(explanation) = explanation {
-        print(&explanation.to_string())?;
-    }
     Ok(exit_code(&results))
 }
 
@@ -317,6 +307,13 @@ fn solve(
 }
 
 impl CompileArguments {
+    /// The phases that people may have to wait for, and what part of the time they take as a rule.
+    fn phases(&self) -> Vec<Phase> {
+        let solved = [(SOLVING, 2.0)].into_iter().filter(|_| self.solve || self.prune);
+        let written = [(FILES, 2.0)].into_iter().filter(|_| !self.dry_run);
+        [("enabled actions", 1.0), ("rows", 3.0)].into_iter().chain(solved).chain(written).collect()
+    }
+
     /// Whether formats were not chosen, so that it hangs on the size of the model which it is written in.
     fn wants_unasked(&self) -> bool {
         self.format.is_empty() && !self.no_tra && self.encoding != EncodingName::Rows
@@ -341,57 +338,18 @@ fn prune(abstraction: &mut Abstraction, bars: &Bars) -> Result<(PropertyResult, 
     pruned(&mut abstraction.model, &abstraction.property, bars)
 }
 
-fn read_model(path: &Path) -> Result<String, CliError> {
-    files::read_text(path).map_err(|error| {
-        let shown = path.display();
-        match error.kind() {
-            io::ErrorKind::NotFound => CliError::Input(format!(
-                "{shown}: found no such file; expected a model file\n  dynabs-compile --init {shown} writes one to start from."
-            )),
-            io::ErrorKind::InvalidData | io::ErrorKind::IsADirectory => {
-                CliError::Input(format!("{shown}: found something that is not text; expected a model file in JSON"))
-            }
-            _ => CliError::reading(path, &error),
-        }
-    })
-}
-
-/// Parses the file and applies `--set` and `--seed`; returns the document and what to note about it.
-fn configure(
-    path: &Path,
-    source: &str,
-    arguments: &CompileArguments,
-) -> Result<(Document, Vec<String>), CliError> {
-    let mut document = Document::parse(path, source)?;
-    for text in &arguments.set {
-        let argument: SetArgument =
-            text.parse().map_err(|error| CliError::Input(format!("--set: {error}")))?;
-        let name = format!("{} with --set", document.name);
-        document.set(&argument).map_err(|error| error.in_file(&name))?;
-    }
-    let mut notes = Vec::new();
-    if let Some(seed) = arguments.seed {
-        match document.value.pointer_mut("/noise") {
-            Some(Value::Object(noise)) if noise.contains_key("gaussian") => {
-                noise.insert("seed".to_owned(), seed.into());
-            }
-            _ => notes.push("--seed has no effect: the noise samples come from a file".to_owned()),
-        }
-    }
-    Ok((document, notes))
-}
-
 /// What a summary says beside the manifest.
 struct Texts<'a> {
     footprint: &'a Footprint,
-    left_out: &'a str,
+    left_out: String,
+    explanation: String,
     controller_bytes: Option<u64>,
 }
 
 fn report(
     arguments: &CompileArguments,
     manifest: &Manifest,
-    Texts { footprint, left_out, controller_bytes }: &Texts<'_>,
+    Texts { footprint, left_out, explanation, controller_bytes }: &Texts<'_>,
     phases: &[(&str, Duration)],
     results: &[PropertyResult],
 ) -> Result<(), CliError> {
@@ -400,17 +358,18 @@ fn report(
         for warning in &manifest.warnings {
             text += &format!("warning: {warning}\n");
         }
-        let times: Vec<_> = phases.iter().map(|(name, time)| format!("{name} {time:.1?}")).collect();
-        text += &format!("times: {}{}\n", times.join(", "), peak());
+        if arguments.verbose {
+            text += &times(phases);
+        }
         warn(&text);
     }
     if arguments.json {
-        let times: serde_json::Map<String, Value> =
+        let seconds: serde_json::Map<String, Value> =
             phases.iter().map(|(name, time)| ((*name).to_owned(), time.as_secs_f64().into())).collect();
         let mut object = serde_json::to_value(manifest)
             .map_err(|error| CliError::Failure(format!("the manifest has no JSON form: {error}")))?;
         if let Value::Object(object) = &mut object {
-            object.insert("seconds".to_owned(), Value::Object(times));
+            object.insert("seconds".to_owned(), Value::Object(seconds));
             if arguments.dry_run {
                 object.insert("memory".to_owned(), memory_json(footprint));
             }
@@ -426,8 +385,14 @@ fn report(
         Ok(())
     } else {
         let directory = arguments.output.as_ref().filter(|_| !arguments.dry_run);
-        let text = summary(manifest, directory.map(|path| path.display().to_string()).as_deref());
-        let memory = if arguments.dry_run { memory(footprint) } else { String::new() };
-        print(&(text + left_out + &memory + &table(results)))
+        let directory = directory.map(|path| path.display().to_string());
+        let mut text = summary(manifest, directory.as_deref(), arguments.verbose) + left_out;
+        if arguments.dry_run {
+            text += &memory(footprint);
+        }
+        if results.is_empty() {
+            text += &property(&manifest.property);
+        }
+        print(&(text + explanation + &table(results, arguments.verbose)))
     }
 }

@@ -1,8 +1,10 @@
 //! `dynabs-compile` for actions that are inputs.
 
 use crate::input_summary::{InputResult, summary};
+use crate::phases::FILES;
+use crate::progress::SOLVING;
 use crate::pruning::pruned;
-use crate::resources::peak;
+use crate::resources::times;
 use crate::summary::{memory, memory_json};
 use crate::unasked::Unasked;
 use crate::{Bars, CliError, print, warn};
@@ -37,6 +39,7 @@ pub(super) struct Wanted<'a> {
     pub(super) prune: bool,
     pub(super) json: bool,
     pub(super) quiet: bool,
+    pub(super) verbose: bool,
     /// Whether nothing is written, so that what it would take is of interest.
     pub(super) dry_run: bool,
 }
@@ -55,6 +58,8 @@ pub(super) fn compile_inputs(
 ) -> Result<ExitCode, CliError> {
     let read = start.elapsed();
     let abstraction = InputAbstraction::new(problem).map_err(|error| of_inputs(&error, &document.name))?;
+    let written = wanted.output.is_some().then_some((FILES, 1.0));
+    bars.expect([(SOLVING, 3.0)].into_iter().filter(|_| wanted.solve).chain(written).collect());
     bars.catch_interrupts();
     let mut phases = vec![("model file", read)];
     phases.extend(&abstraction.phases);
@@ -109,8 +114,9 @@ pub(super) fn compile_inputs(
     }
     if !wanted.quiet {
         manifest.warnings.iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
-        let times: Vec<_> = phases.iter().map(|(name, time)| format!("{name} {time:.1?}")).collect();
-        warn(&format!("times: {}{}\n", times.join(", "), peak()));
+        if wanted.verbose {
+            warn(&times(&phases));
+        }
     }
     if wanted.json {
         let seconds: Map<String, Value> =
@@ -134,7 +140,7 @@ pub(super) fn compile_inputs(
     } else if !wanted.quiet {
         let initial =
             if problem.initial_state().is_some() { "at the initial state" } else { "over all cells" };
-        let mut text = summary(problem, &abstraction);
+        let mut text = summary(problem, &abstraction, wanted.verbose);
         if wanted.dry_run {
             text += &memory(&abstraction.footprint);
         }
@@ -143,7 +149,7 @@ pub(super) fn compile_inputs(
             text += &format!("  {:<13}{} ({:.1} MB)\n", "written", output.display(), bytes as f64 / 1e6);
             text += unasked.left_out.as_deref().unwrap_or_default();
         }
-        text += &result.as_ref().map_or(String::new(), |result| result.text(initial));
+        text += &result.as_ref().map_or(String::new(), |result| result.text(initial, wanted.verbose));
         print(&text)?;
     }
     Ok(result.map_or(ExitCode::SUCCESS, |result| result.exit_code()))

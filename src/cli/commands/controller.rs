@@ -15,6 +15,7 @@ use std::sync::Arc;
 
 /// Which controller to write where.
 #[derive(Clone, Debug, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct ControllerArguments {
     /// A directory written by dynabs-compile.
     directory: PathBuf,
@@ -31,6 +32,11 @@ pub struct ControllerArguments {
     #[arg(short, long)]
     quiet: bool,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  dynabs export out/mine -o mine.c
+  dynabs export out/mine -o mine.json";
 
 /// Runs the subcommand.
 ///

@@ -19,6 +19,7 @@ use std::sync::Arc;
 
 /// What to convert into what.
 #[derive(Clone, Debug, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct ConvertArguments {
     #[arg(help = model_help())]
     input: PathBuf,
@@ -55,6 +56,11 @@ pub struct ConvertArguments {
     #[arg(short, long)]
     quiet: bool,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  dynabs convert out/mine/model.dynabs mine.drn
+  dynabs convert model.tra model.umb";
 
 impl From<WriteError> for CliError {
     fn from(error: WriteError) -> Self {

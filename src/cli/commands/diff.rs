@@ -1,6 +1,7 @@
 //! `dynabs-check diff`: what changed between two runs.
 
 use crate::exports::replace;
+use crate::extensions::require_extension;
 use crate::{CliError, print, thousands};
 use clap::Args;
 use dynabs::run::{RecordError, open_record};
@@ -13,6 +14,7 @@ use std::process::ExitCode;
 
 /// What to compare and how closely.
 #[derive(Clone, Debug, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct DiffArguments {
     /// A run directory, the stem or .tra of explicit files, a native model, results in JSON or a reference file.
     left: PathBuf,
@@ -46,6 +48,11 @@ pub struct DiffArguments {
     quiet: bool,
 }
 
+const EXAMPLES: &str = "\
+Examples:
+  dynabs diff out/before out/after
+  dynabs diff out/mine --write-reference mine.reference.json";
+
 fn not_negative(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|x| x.is_finite() && *x >= 0.0);
     number.ok_or_else(|| "expected a number that is not negative".to_owned())
@@ -73,6 +80,9 @@ impl From<RecordError> for CliError {
 /// # Errors
 /// [`CliError`], which knows its exit code.
 pub fn run(arguments: &DiffArguments) -> Result<ExitCode, CliError> {
+    if let Some(path) = &arguments.write_reference {
+        require_extension("--write-reference", path, &["json"])?;
+    }
     let mut left = open_record(&arguments.left)?;
     if let Some(file) = &arguments.write_reference {
         return write_reference(file, &Reference::new(&mut left)?);

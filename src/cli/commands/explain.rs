@@ -14,6 +14,7 @@ use std::sync::Arc;
 
 /// What to explain.
 #[derive(Clone, Debug, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct ExplainArguments {
     /// A directory written by dynabs-compile.
     directory: PathBuf,
@@ -26,6 +27,11 @@ pub struct ExplainArguments {
     #[arg(short, long)]
     quiet: bool,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  dynabs explain out/mine
+  dynabs explain out/mine --json";
 
 /// Runs the subcommand.
 ///

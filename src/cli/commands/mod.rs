@@ -9,6 +9,7 @@ pub mod convert;
 pub mod crosscheck;
 pub mod diff;
 pub mod explain;
+mod init;
 pub mod report;
 mod search;
 pub mod simulate;

@@ -1,5 +1,6 @@
 //! `dynabs-check report`: a run as one page.
 
+use crate::extensions::require_extension;
 use crate::input_run_source::SolvedInputs;
 use crate::run_source::{Controlled, Refined};
 use crate::{Bars, CliError, print, warn};
@@ -22,6 +23,7 @@ use std::time::Instant;
 
 /// What to report, and where.
 #[derive(Clone, Debug, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct ReportArguments {
     /// A directory written by dynabs-compile; a crosscheck.json in it (what crosscheck --json prints) is shown as well.
     directory: PathBuf,
@@ -68,6 +70,11 @@ pub struct ReportArguments {
     quiet: bool,
 }
 
+const EXAMPLES: &str = "\
+Examples:
+  dynabs report out/mine -o mine.html
+  dynabs report out/mine -o mine.html --across x1 --up x2 --at x3=0.5";
+
 impl From<CrossCheckError> for CliError {
     fn from(error: CrossCheckError) -> Self {
         match error {
@@ -109,6 +116,7 @@ pub fn run(arguments: &ReportArguments) -> Result<ExitCode, CliError> {
     let bars = Arc::new(Bars::new(arguments.quiet));
     let start = Instant::now();
     let view = view(arguments)?;
+    require_extension("--output", &arguments.output, &["html", "htm"])?;
     let run = Controlled::open(&arguments.directory, &bars)?;
     run.require_text("the page", "Use fewer /partition/cells.")?;
     let (page, pictures) = match run {

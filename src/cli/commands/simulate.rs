@@ -1,6 +1,7 @@
 //! `dynabs-check simulate`: the closed loop against its promise.
 
 use crate::exports::replace;
+use crate::extensions::require_extension;
 use crate::run_source::Controlled;
 use crate::simulation_noise::{ChosenNoise, NoiseArguments, SaidOfNoise, noise};
 use crate::simulation_report::{Report, Simulated};
@@ -17,6 +18,7 @@ use std::time::Instant;
 
 /// What to simulate.
 #[derive(Clone, Debug, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct SimulateArguments {
     /// A directory written by dynabs-compile.
     directory: PathBuf,
@@ -65,6 +67,11 @@ pub struct SimulateArguments {
     quiet: bool,
 }
 
+const EXAMPLES: &str = "\
+Examples:
+  dynabs simulate out/mine --runs 10000
+  dynabs simulate out/mine --from=-20,0 --trajectories paths.csv --keep 30";
+
 /// How parameters are picked at every step.
 #[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
 enum Parameters {
@@ -93,6 +100,9 @@ impl From<Parameters> for ParameterChoice {
 /// # Errors
 /// [`CliError`], which knows its exit code.
 pub fn run(arguments: &SimulateArguments) -> Result<ExitCode, CliError> {
+    if let Some(path) = &arguments.trajectories {
+        require_extension("--trajectories", path, &["csv"])?;
+    }
     let bars = Arc::new(Bars::new(arguments.quiet));
     let run = Controlled::open(&arguments.directory, &bars)?;
     let controller = run.controller();

@@ -5,8 +5,9 @@ use crate::input_run_source::SolvedInputs;
 use crate::input_summary::InputResult;
 use crate::limits::LimitArguments;
 use crate::model_source::{LoadedModel, load, model_help};
+use crate::progress::SOLVING;
 use crate::questions::{Asked, QuestionArguments};
-use crate::resources::peak;
+use crate::resources::times;
 use crate::results::{PropertyResult, exit_code, table};
 use crate::{Bars, CliError, print, print_json, warn};
 use clap::Args;
@@ -27,6 +28,7 @@ use std::time::{Duration, Instant};
 
 /// What to solve and how.
 #[derive(Clone, Debug, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct SolveArguments {
     #[arg(help = model_help())]
     path: PathBuf,
@@ -61,7 +63,16 @@ pub struct SolveArguments {
     /// Print nothing but errors (and the object of --json).
     #[arg(short, long)]
     quiet: bool,
+
+    /// Print all digits, how each computation ended and how long it took, too.
+    #[arg(short, long, conflicts_with_all = ["quiet", "json"])]
+    verbose: bool,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  dynabs solve out/mine
+  dynabs solve model.drn -p 'Pmaxmin=? [ F<=8 \"goal\" ]' --policy policy.txt";
 
 impl SolveArguments {
     /// Whether files are to be written.
@@ -103,6 +114,7 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
         loaded.warnings.iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
     }
     let mut results = Vec::with_capacity(questions.len());
+    bars.expect(vec![(SOLVING, 1.0); questions.len()]);
     bars.catch_interrupts();
     for question in &questions {
         let outcome = match question.problem() {
@@ -123,8 +135,10 @@ pub fn run(arguments: &SolveArguments) -> Result<ExitCode, CliError> {
     if arguments.json {
         print_json(&report(&loaded.model, results, &loaded.warnings, reading))?;
     } else if !arguments.quiet {
-        print(&table(&results))?;
-        warn(&format!("times: reading {reading:.1?}, solving {:.1?}{}\n", start.elapsed() - reading, peak()));
+        if arguments.verbose {
+            warn(&times(&[("reading", reading), ("solving", start.elapsed() - reading)]));
+        }
+        print(&table(&results, arguments.verbose))?;
     }
     Ok(code)
 }
@@ -236,7 +250,7 @@ fn solve_inputs(arguments: &SolveArguments, bars: &Arc<Bars>) -> Result<ExitCode
     } else if !arguments.quiet {
         let initial =
             if run.problem.initial_state().is_some() { "at the initial state" } else { "over all cells" };
-        print(&format!("{}\n{}", run.manifest.property, result.text(initial)))?;
+        print(&format!("{}\n{}", run.manifest.property, result.text(initial, arguments.verbose)))?;
     }
     Ok(result.exit_code())
 }

@@ -24,6 +24,7 @@ const COINCIDENCES: f64 = 0.01;
 
 /// What to validate, with which samples.
 #[derive(Clone, Debug, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct ValidateArguments {
     /// A directory written by dynabs-compile.
     directory: PathBuf,
@@ -51,6 +52,10 @@ pub struct ValidateArguments {
     #[arg(short, long)]
     quiet: bool,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  dynabs validate out/mine --samples fresh.csv";
 
 /// What fresh samples showed.
 #[derive(Clone, Debug, Serialize)]

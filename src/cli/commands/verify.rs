@@ -15,6 +15,7 @@ use std::time::{Duration, Instant};
 
 /// What to check against what.
 #[derive(Clone, Debug, Args)]
+#[command(after_help = EXAMPLES)]
 pub struct VerifyArguments {
     /// A certificate written by `solve --certificate`.
     certificate: PathBuf,
@@ -30,6 +31,11 @@ pub struct VerifyArguments {
     #[arg(short, long)]
     quiet: bool,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  dynabs solve out/mine -p 'Pmaxmin=? [ F \"reached\" ]' --certificate mine.cert
+  dynabs verify mine.cert out/mine";
 
 /// Runs the subcommand.
 ///

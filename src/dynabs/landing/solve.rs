@@ -49,7 +49,8 @@ impl Question<'_> {
     /// The lower one is the robust value of a policy with these inputs; no controller with these inputs is worth more
     /// than the upper one. Both hold however the computation ends.
     pub fn solve(&self, options: &SolverOptions<'_>) -> LandingSolution {
-        let mut control = Control::new(options);
+        // From below, then from above.
+        let mut control = Control::of(options, self.steps.map(|steps| steps.saturating_mul(2)));
         let pairs = self.pairs();
         let mut history = vec![];
         let (lower, policy, stopped) = self.lower_bounds(&pairs, &mut control, &mut history);

@@ -1,5 +1,6 @@
 //! A model file as a JSON document, before anything is known of its meaning.
 
+use super::by_example::by_example;
 use super::fields::ModelFile;
 use crate::Diagnostic;
 use crate::noise::DecimalMark;
@@ -118,6 +119,7 @@ impl Document {
             let message = error.into_inner().to_string();
             let (found, expected) = found_and_expected(&message);
             let nearest = nearest(&message);
+            let expected = by_example(&place, expected);
             let mistake = Diagnostic::at(place, found, expected).in_file(&self.name);
             match nearest {
                 Some(field) => mistake.remedy(format!("Did you mean \"{field}\"?")),

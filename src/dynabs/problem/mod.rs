@@ -44,6 +44,7 @@ mod probabilities;
 #[expect(clippy::module_inception, reason = "the file of the type is called after it, as everywhere")]
 mod problem;
 mod regions;
+mod shape_example;
 mod target_id;
 mod task;
 mod tracking;

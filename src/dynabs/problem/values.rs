@@ -1,5 +1,6 @@
 //! Shapes and numbers: from lists to exact matrices and vectors.
 
+use super::shape_example::{list_example, rows_example};
 use crate::Diagnostic;
 use crate::linear_algebra::ExactMatrix;
 use imdp::numeric::{Rational, from_decimal};
@@ -12,7 +13,8 @@ pub(super) fn vector(
     what: &str,
 ) -> Result<Vec<Rational>, Diagnostic> {
     if values.len() != length {
-        return Err(Diagnostic::at(place, count(values.len(), "number"), format!("{length}, {what}")));
+        let expected = format!("{length}, {what}{}", list_example(values, length));
+        return Err(Diagnostic::at(place, count(values.len(), "number"), expected));
     }
     let exact = |(i, &x): (usize, &f64)| {
         from_decimal(x)
@@ -34,14 +36,20 @@ pub(super) fn matrix(
     let width = columns.unwrap_or_else(|| values.first().map_or(0, Vec::len));
     let height = rows.unwrap_or(values.len());
     if values.len() != height || height == 0 {
-        let expected = format!("{}, {what}", count(height.max(1), "row"));
+        // A row where a column is meant has the right number of numbers.
+        let numbers: usize = values.iter().map(Vec::len).sum();
+        let fits = numbers.is_multiple_of(height.max(1)).then_some(numbers / height.max(1));
+        let columns = columns.or(fits).unwrap_or(width);
+        let expected =
+            format!("{}, {what}{}", count(height.max(1), "row"), rows_example(values, height, columns));
         return Err(Diagnostic::at(place, count(values.len(), "row"), expected));
     }
     let mut entries = Vec::with_capacity(height * width);
     for (i, row) in values.iter().enumerate() {
         if row.len() != width || width == 0 {
             let place = format!("{place}/{i}");
-            let expected = format!("{} in every row, {what}", count(width.max(1), "number"));
+            let example = rows_example(values, height, width);
+            let expected = format!("{} in every row, {what}{example}", count(width.max(1), "number"));
             return Err(Diagnostic::at(place, count(row.len(), "number"), expected));
         }
         entries.extend(vector(&format!("{place}/{i}"), row, width, what)?);

@@ -5,6 +5,7 @@
 
 mod allocation;
 mod demands;
+mod eigenvalues;
 pub mod expression;
 mod feedback;
 mod gain;
@@ -24,6 +25,7 @@ mod two_layer;
 
 pub(crate) use allocation::rough_right_inverse;
 pub use demands::Demands;
+pub use eigenvalues::eigenvalues;
 pub use feedback::Feedback;
 pub use gain::narrowing_gain;
 pub use grouping::{TooManyDigits, group, require_digits, smallest_group};

@@ -27,7 +27,7 @@ pub(super) fn until(
         |&s: &StateId| safe.contains(s.index()) && !goal.contains(s.index()) && !choices.ranges(s).is_empty();
     let states: Vec<StateId> = StateId::first(model.num_states()).filter(moving).collect();
     let mut iteration = Iteration::new(model, players, states, goal, options);
-    let mut control = Control::new(options);
+    let mut control = Control::of(options, Some(steps));
     let mut status = Status::HorizonReached;
     while control.iterations < steps {
         if let Some(reason) = control.stop() {

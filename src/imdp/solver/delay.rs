@@ -33,7 +33,7 @@ pub fn solve_delayed(
     table.prepare(model.choices(), &states);
     let rows = model.choices().used_rows(model.rows().len(), states.iter().copied());
     let mut sweep = Sweep::new(model, players, states, &rows);
-    let mut control = Control::new(options);
+    let mut control = Control::of(options, Some(first));
     let ValueBounds { lower, upper } = &mut solution.values;
     let mut results = vec![];
     for waited in 0..first {

@@ -85,6 +85,8 @@ const REASONS: [Status; 3] = [Status::TimeLimit, Status::IterationLimit, Status:
 pub struct Control<'a> {
     options: &'a SolverOptions<'a>,
     start: Instant,
+    /// The number of iterations there will be at most, if that is known.
+    of: Option<u64>,
     /// The number of iterations done.
     pub iterations: u64,
 }
@@ -92,7 +94,12 @@ pub struct Control<'a> {
 impl<'a> Control<'a> {
     /// The clock starts now.
     pub fn new(options: &'a SolverOptions<'a>) -> Self {
-        Self { options, start: Instant::now(), iterations: 0 }
+        Self { options, start: Instant::now(), of: None, iterations: 0 }
+    }
+
+    /// The same, for a computation of so many iterations if that is known.
+    pub fn of(options: &'a SolverOptions<'a>, iterations: Option<u64>) -> Self {
+        Self { of: iterations, ..Self::new(options) }
     }
 
     /// What is asked for.
@@ -124,6 +131,6 @@ impl<'a> Control<'a> {
     /// Notes that an iteration is done.
     pub fn done(&mut self, gap: f64) {
         self.iterations += 1;
-        self.options.progress.iterate(self.iterations, gap);
+        self.options.progress.iterate(self.iterations, self.of, gap);
     }
 }

@@ -8,8 +8,6 @@ mod spec;
 mod split;
 mod table;
 
-pub(super) use spec::search_schema;
-
 use super::sweep::job::Job;
 use super::sweep::program::Program;
 use super::sweep::spec::Sweep;

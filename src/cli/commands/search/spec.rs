@@ -49,11 +49,6 @@ pub(super) enum Samples {
     Split,
 }
 
-/// The JSON Schema of a spec.
-pub(in crate::commands) fn search_schema() -> &'static str {
-    include_str!("../../schemas/search.json")
-}
-
 impl Spec {
     /// Reads a spec.
     ///

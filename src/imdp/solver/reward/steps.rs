@@ -31,7 +31,7 @@ pub(super) fn cumulative(
         let most = iteration.largest() / (1.0 - discount.next_up()).max(f64::MIN_POSITIVE);
         upper.fill(most.next_up().next_up().min(f64::MAX));
     }
-    let mut control = Control::new(options);
+    let mut control = Control::of(options, steps);
     let mut recorder = (options.evidence && steps.is_some()).then(|| Recorder::new(model.num_states()));
     let mut changes = vec![];
     let mut memory = GrowingMemory::new("the policy");
@@ -95,7 +95,7 @@ pub(super) fn instantaneous(
     let mut iteration = Iteration::new(model, None, players);
     let values = |side| (0..model.num_states()).map(|s| costs::written(rewards.of_state(s), side)).collect();
     let (mut lower, mut upper): (Vec<f64>, Vec<f64>) = (values(Bound::Lower), values(Bound::Upper));
-    let mut control = Control::new(options);
+    let mut control = Control::of(options, Some(step));
     let mut status = Status::HorizonReached;
     let mut recorder = options.evidence.then(|| Recorder::new(model.num_states()));
     let mut changes = vec![];
