@@ -209,6 +209,36 @@ fn every_shipped_model_in_both_modes() {
     }
 }
 
+/// Where a plan is followed: its regions, where they steer to, and their law.
+#[test]
+fn plans_are_drawn() {
+    let scratch = TempDir::new().unwrap();
+    fs::create_dir(scratch.path().join("tracking")).unwrap();
+    let track = "/stabilizer={\"track\":\"auto\"}";
+    for (model, sets) in [("room_temperature", &[track][..]), ("tracking/double_integrator", &[])] {
+        let Reported { page, pictures, run, .. } = reported(&compiled(&scratch, model, sets), vec![]);
+        assert_well_formed(&page);
+        let plan = run.manifest.plan.unwrap();
+        let section = between(&page, "<h2>The plan</h2>", "</section>");
+        let (rows, targets) = (section.matches("<th scope=\"row\">").count() as u64, plan.targets);
+        assert_eq!(rows, targets.min(12), "{model}");
+        assert_eq!(section.contains(&format!("12 largest of {targets} regions")), targets > 12, "{model}");
+        let svg = &pictures.iter().find(|picture| picture.name == "plan").unwrap().svg;
+        assert_well_formed(svg);
+        assert_numbers(svg);
+        let tiles = between(svg, "<g class=\"heat\">", "</g>").matches("<path").count() as u64;
+        let dots = svg.matches("<path class=\"heading\"").count() as u64;
+        // All regions of one dimension, or of two, are in the picture; over time a target has no place.
+        assert_eq!(
+            (tiles, dots),
+            (targets, if model == "room_temperature" { 0 } else { targets }),
+            "{model}"
+        );
+    }
+    let Reported { page, pictures, .. } = reported(&compiled(&scratch, "double_integrator", &[]), vec![]);
+    assert!(!page.contains("<h2>The plan</h2>") && pictures.iter().all(|picture| picture.name != "plan"));
+}
+
 #[test]
 fn the_same_page_every_time() {
     let scratch = TempDir::new().unwrap();

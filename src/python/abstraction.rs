@@ -2,12 +2,12 @@
 
 use crate::errors::refused;
 use crate::imdp_model::Model;
-use crate::problem::grid;
-use crate::solution::Solution;
+use crate::problem::Given;
+use crate::solution::{Solution, Solved};
 use crate::work::interruptible;
 use dynabs::abstraction::inputs::InputAbstraction;
-use dynabs::controller::Controller;
 use dynabs::model_file::StatedProblem;
+use dynabs::run::{input_solution_options, solution_options};
 use imdp::solver::{Answer, SolverOptions};
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -15,11 +15,12 @@ use std::sync::Arc;
 /// An interval MDP whose intervals are guaranteed, and what its states and actions mean.
 #[pyclass(frozen, module = "dynabs")]
 pub(crate) struct Abstraction {
-    stated: Arc<StatedProblem>,
-    kind: Kind,
+    given: Arc<Given>,
+    kind: Arc<Kind>,
 }
 
-enum Kind {
+/// What a problem was abstracted to.
+pub(crate) enum Kind {
     Targets(Box<dynabs::abstraction::Abstraction>),
     Inputs(Box<InputAbstraction>),
 }
@@ -29,7 +30,7 @@ impl Abstraction {
     /// What deserves a look.
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        let warnings = match &self.kind {
+        let warnings = match &*self.kind {
             Kind::Targets(abstraction) => &abstraction.warnings,
             Kind::Inputs(abstraction) => &abstraction.warnings,
         };
@@ -50,46 +51,35 @@ impl Abstraction {
 
     /// Solves the task: bounds on the probability of success from every cell, and the controller that attains them.
     fn solve(&self, py: Python<'_>) -> PyResult<Solution> {
-        match (&*self.stated, &self.kind) {
+        let solved = match (&self.given.stated, &*self.kind) {
             (StatedProblem::Targets(problem), Kind::Targets(abstraction)) => {
                 let answer = interruptible(py, |stop| {
-                    let options = SolverOptions { policy: true, progress: stop, ..SolverOptions::default() };
+                    let options = SolverOptions { progress: stop, ..SolverOptions::default() };
+                    let options = solution_options(problem, &options);
                     Answer::new(&abstraction.model, &abstraction.property, &options)
                 })?;
-                let answer = answer.map_err(refused)?;
-                let controller = Controller::new(problem, abstraction, &answer).map_err(refused)?;
-                let upper = abstraction.state_of_cell.iter().map(|state| answer.values.upper[state.index()]);
-                Ok(Solution::new(self.stated.clone(), controller, upper.collect()))
+                Solved::Targets(Box::new(answer.map_err(refused)?))
             }
             (StatedProblem::Inputs(problem), Kind::Inputs(abstraction)) => {
                 let solution = interruptible(py, |stop| {
                     let options = SolverOptions { progress: stop, ..SolverOptions::default() };
-                    abstraction.question().solve(&options)
+                    abstraction.question().solve(&input_solution_options(problem, &options))
                 })?;
-                let controller = Controller::of_inputs(problem, abstraction, &solution);
-                let cells = grid(&self.stated).num_cells() as usize;
-                let upper = solution.values.upper[..cells].to_vec();
-                Ok(Solution::new(self.stated.clone(), controller, upper))
+                Solved::Inputs(solution)
             }
-            _ => Err(refused("found an abstraction of another problem; expected that of this one")),
-        }
+            _ => return Err(foreign()),
+        };
+        Solution::new(self.given.clone(), self.kind.clone(), solved, None)
     }
 }
 
 impl Abstraction {
-    pub(crate) fn of_targets(
-        stated: Arc<StatedProblem>,
-        abstraction: dynabs::abstraction::Abstraction,
-    ) -> Self {
-        Self { stated, kind: Kind::Targets(Box::new(abstraction)) }
-    }
-
-    pub(crate) fn of_inputs(stated: Arc<StatedProblem>, abstraction: InputAbstraction) -> Self {
-        Self { stated, kind: Kind::Inputs(Box::new(abstraction)) }
+    pub(crate) fn new(given: Arc<Given>, kind: Kind) -> Self {
+        Self { given, kind: Arc::new(kind) }
     }
 
     fn targets(&self) -> PyResult<&dynabs::abstraction::Abstraction> {
-        match &self.kind {
+        match &*self.kind {
             Kind::Targets(abstraction) => Ok(abstraction),
             Kind::Inputs(_) => Err(refused(
                 "actions: found inputs, which are solved on a lattice; expected targets, whose model is an interval MDP in memory\n  \
@@ -97,4 +87,9 @@ impl Abstraction {
             )),
         }
     }
+}
+
+/// What parts of different problems are.
+pub(crate) fn foreign() -> PyErr {
+    refused("found an abstraction of another problem; expected that of this one")
 }

@@ -6,7 +6,7 @@ use crate::imdp_result::{Asked, PropertyResult, certified};
 use crate::work::interruptible;
 use imdp::certificate::FileDigest;
 use imdp::files::Outputs;
-use imdp::formats::{Format, ModelWriter, native, sha256_hex, umb::Compression};
+use imdp::formats::{Format, Imported, ModelWriter, native, sha256_hex, umb::Compression};
 use imdp::model::{
     ActionNames, Choices, ChoicesBuilder, IntervalMdp, Labels, ModelKind, Parts, RowBuffer, RowId, RowRange,
     Rows, StateId, StateSet, StateVariables,
@@ -25,6 +25,8 @@ use std::sync::Arc;
 #[pyclass(frozen, module = "dynabs.imdp")]
 pub(crate) struct Model {
     model: Arc<IntervalMdp>,
+    /// What was accepted in its file although it deserves a look.
+    warnings: Vec<String>,
 }
 
 type Array<'py, T> = Bound<'py, PyArray<T, Ix1>>;
@@ -76,7 +78,9 @@ impl Model {
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let format = format_of(&path)?;
         let imported = interruptible(py, |stop| format.import(&path, stop))?;
-        imported.map(|imported| Self::of(imported.model)).map_err(refused)
+        let Imported { model, warnings, .. } = imported.map_err(refused)?;
+        let warnings = warnings.iter().map(ToString::to_string).collect();
+        Ok(Self { warnings, ..Self::of(model) })
     }
 
     /// Writes the file or files of a format, told by the ending.
@@ -94,6 +98,12 @@ impl Model {
             files.commit().map_err(|error| format!("{}: {error}", path.display()))
         })?;
         written.map_err(refused)
+    }
+
+    /// What was accepted in its file although it deserves a look.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.warnings.clone()
     }
 
     /// The number of states.
@@ -168,7 +178,7 @@ impl Model {
 
 impl Model {
     pub(crate) fn of(model: IntervalMdp) -> Self {
-        Self { model: Arc::new(model) }
+        Self { model: Arc::new(model), warnings: vec![] }
     }
 
     pub(crate) fn model(&self) -> &IntervalMdp {

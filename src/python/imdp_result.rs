@@ -156,7 +156,8 @@ pub(crate) fn certified(
 
 /// Checks a certificate against a model, in exact arithmetic: verify(certificate, model).
 ///
-/// Returns a dict (lower, upper, states, steps, rows); what does not follow is an Error.
+/// Returns a dict (property, lower, upper, states, steps, rows): what was proved of which property; what does not follow is an
+/// Error.
 #[pyfunction]
 pub(crate) fn verify<'py>(
     py: Python<'py>,
@@ -170,10 +171,16 @@ pub(crate) fn verify<'py>(
             Statement::Probability(certificate) => check(certificate, model.model(), &digests),
             Statement::Expression(derivation) => check_derivation(derivation, model.model(), &digests),
         };
-        outcome.map_err(|rejection| rejection.to_string())
+        let property = match &statement {
+            Statement::Probability(certificate) => certificate.property.to_string(),
+            Statement::Expression(derivation) => derivation.expression.clone(),
+        };
+        outcome.map(|proved| (property, proved)).map_err(|rejection| rejection.to_string())
     })?;
-    let proved = proved.map_err(|error| refused(format!("{}: {error}", certificate.display())))?;
+    let (property, proved) =
+        proved.map_err(|error| refused(format!("{}: {error}", certificate.display())))?;
     let said = PyDict::new(py);
+    said.set_item("property", property)?;
     said.set_item("lower", proved.lower)?;
     said.set_item("upper", proved.upper)?;
     said.set_item("states", proved.states)?;

@@ -10,6 +10,7 @@ mod errors;
 mod imdp_model;
 mod imdp_result;
 mod problem;
+mod run;
 mod simulation;
 mod solution;
 mod work;
@@ -31,6 +32,8 @@ mod _dynabs {
     use super::imdp_result::{PropertyResult, verify};
     #[pymodule_export]
     use super::problem::Problem;
+    #[pymodule_export]
+    use super::run::open;
     #[pymodule_export]
     use super::solution::Solution;
 

@@ -1,6 +1,6 @@
 //! Problems, read from documents.
 
-use crate::abstraction::Abstraction;
+use crate::abstraction::{Abstraction, Kind};
 use crate::arrays::array;
 use crate::errors::{mistake, refused};
 use crate::work::interruptible;
@@ -20,7 +20,22 @@ use std::sync::Arc;
 /// numbers, arrays will do. Files that it names are looked for in the directory.
 #[pyclass(frozen, module = "dynabs")]
 pub(crate) struct Problem {
-    stated: Arc<StatedProblem>,
+    given: Arc<Given>,
+}
+
+/// What was given: a document, and the problem that it states.
+pub(crate) struct Given {
+    pub(crate) document: Document,
+    /// Its text, as it was read.
+    pub(crate) source: String,
+    pub(crate) stated: StatedProblem,
+}
+
+impl Given {
+    /// What a run holds, whose text nobody asks for: it has a manifest.
+    pub(crate) fn new(document: Document, stated: StatedProblem) -> Arc<Self> {
+        Arc::new(Self { document, source: String::new(), stated })
+    }
 }
 
 /// One number for each dimension of the state.
@@ -47,7 +62,7 @@ impl Problem {
     /// The name.
     #[getter]
     fn name(&self) -> &str {
-        match &*self.stated {
+        match &self.given.stated {
             StatedProblem::Targets(problem) => problem.name(),
             StatedProblem::Inputs(problem) => problem.name(),
         }
@@ -56,7 +71,7 @@ impl Problem {
     /// "targets" or "inputs".
     #[getter]
     fn actions(&self) -> &'static str {
-        match &*self.stated {
+        match &self.given.stated {
             StatedProblem::Targets(_) => "targets",
             StatedProblem::Inputs(_) => "inputs",
         }
@@ -83,7 +98,7 @@ impl Problem {
     /// The state that runs start in, (n,); None if there is none.
     #[getter]
     fn initial_state<'py>(&self, py: Python<'py>) -> PyResult<Option<Numbers<'py>>> {
-        let initial = match &*self.stated {
+        let initial = match &self.given.stated {
             StatedProblem::Targets(problem) => problem.initial_state(),
             StatedProblem::Inputs(problem) => problem.initial_state(),
         };
@@ -93,7 +108,7 @@ impl Problem {
     /// The number of (grouped) steps; None if there is no horizon.
     #[getter]
     fn horizon(&self) -> Option<u64> {
-        match &*self.stated {
+        match &self.given.stated {
             StatedProblem::Targets(problem) => problem.horizon(),
             StatedProblem::Inputs(problem) => problem.horizon(),
         }
@@ -102,7 +117,7 @@ impl Problem {
     /// What deserves a look.
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        let warnings = match &*self.stated {
+        let warnings = match &self.given.stated {
             StatedProblem::Targets(problem) => problem.warnings(),
             StatedProblem::Inputs(problem) => problem.warnings(),
         };
@@ -111,14 +126,16 @@ impl Problem {
 
     /// Abstracts the problem to an interval MDP whose intervals are guaranteed.
     fn compile(&self, py: Python<'_>) -> PyResult<Abstraction> {
-        match &*self.stated {
+        match &self.given.stated {
             StatedProblem::Targets(problem) => {
-                let abstraction = interruptible(py, |stop| compile(problem, stop))?;
-                Ok(Abstraction::of_targets(self.stated.clone(), abstraction.map_err(refused)?))
+                let abstraction = interruptible(py, |stop| compile(problem, stop))?.map_err(refused)?;
+                let abstraction = abstraction.with_costs(problem).map_err(refused)?;
+                Ok(Abstraction::new(self.given.clone(), Kind::Targets(Box::new(abstraction))))
             }
             StatedProblem::Inputs(problem) => {
                 let abstraction = interruptible(py, |_| InputAbstraction::new(problem))?;
-                Ok(Abstraction::of_inputs(self.stated.clone(), abstraction.map_err(refused)?))
+                let kind = Kind::Inputs(Box::new(abstraction.map_err(refused)?));
+                Ok(Abstraction::new(self.given.clone(), kind))
             }
         }
     }
@@ -126,13 +143,16 @@ impl Problem {
 
 impl Problem {
     fn parsed(py: Python<'_>, path: &Path, text: &str) -> PyResult<Self> {
-        let stated =
-            interruptible(py, |_| Document::parse(path, text).and_then(|document| document.stated()))?;
-        Ok(Self { stated: Arc::new(stated.map_err(|error| mistake(&error))?) })
+        let given = interruptible(py, |_| {
+            let document = Document::parse(path, text)?;
+            let stated = document.stated()?;
+            Ok(Given { document, source: text.to_owned(), stated })
+        })?;
+        Ok(Self { given: Arc::new(given.map_err(|error| mistake(&error))?) })
     }
 
     fn grid(&self) -> &Grid {
-        grid(&self.stated)
+        grid(&self.given.stated)
     }
 
     fn sides<'py>(

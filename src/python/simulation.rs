@@ -69,9 +69,11 @@ pub(crate) fn simulate<'py>(
     said.set_item("lower", satisfied.lower)?;
     said.set_item("upper", satisfied.upper)?;
     said.set_item("confidence", satisfied.confidence)?;
-    let promised = controller.bound_at(start);
+    // In reference mode nothing is promised.
+    let bound = controller.bound_at(start);
+    let promised = controller.guarantee().confidence().map(|_| bound);
     said.set_item("promised", promised)?;
-    said.set_item("contradicted", satisfied.contradicts(promised))?;
+    said.set_item("contradicted", promised.map(|bound| satisfied.contradicts(bound)))?;
     let ended = PyDict::new(py);
     for (name, count) in [
         ("reached", tally.reached),
@@ -96,7 +98,9 @@ pub(crate) fn trajectory<'py>(
     start: &[f64],
     (run, seed, most_steps): (u64, u64, u64),
 ) -> PyResult<Bound<'py, PyDict>> {
-    let trajectory = closed((stated, controller), most_steps).trajectory(start, seed, run);
+    let trajectory = interruptible(py, |stop| {
+        closed((stated, controller), most_steps).trajectory_until(start, (seed, run), stop)
+    })?;
     let (n, p) = (controller.state_dimension(), controller.step_inputs());
     let states: Vec<f64> = trajectory.steps.iter().flat_map(|step| step.state.iter().copied()).collect();
     let inputs: Vec<f64> =

@@ -1,23 +1,39 @@
 //! Solutions: what is guaranteed from where, and the controller.
 
+use crate::abstraction::{Kind, foreign};
 use crate::arrays::{Doubles, array, states};
 use crate::controller::Controller;
-use crate::problem::grid;
+use crate::errors::refused;
+use crate::problem::{Given, grid};
+use crate::run::save;
 use crate::simulation::{self, simulate, trajectory};
+use dynabs::landing::LandingSolution;
 use dynabs::model_file::StatedProblem;
 use dynabs::partition::{CellId, GridAxis};
+use dynabs::run::Manifest;
+use imdp::model::StateId;
+use imdp::solver::Answer;
 use numpy::{IxDyn, PyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// What is guaranteed from where, and the controller that attains it.
 #[pyclass(frozen, module = "dynabs")]
 pub(crate) struct Solution {
-    stated: Arc<StatedProblem>,
+    given: Arc<Given>,
+    kind: Arc<Kind>,
+    solved: Solved,
     controller: Arc<dynabs::controller::Controller>,
-    /// By cell.
-    upper: Vec<f64>,
+    /// What the run was that this was opened from.
+    manifest: Option<Manifest>,
+}
+
+/// Bounds and a policy.
+pub(crate) enum Solved {
+    Targets(Box<Answer>),
+    Inputs(LandingSolution),
 }
 
 /// A number for each cell, in the shape of the partition.
@@ -25,7 +41,7 @@ type OfCells<'py> = Bound<'py, PyArray<f64, IxDyn>>;
 
 #[pymethods]
 impl Solution {
-    /// The guaranteed probability of success from every cell, in the shape of the partition.
+    /// A lower bound on the probability of success from every cell, in the shape of the partition: guaranteed with `confidence`.
     #[getter]
     fn lower<'py>(&self, py: Python<'py>) -> PyResult<OfCells<'py>> {
         let cells = (0..self.controller.num_cells()).map(CellId);
@@ -35,10 +51,26 @@ impl Solution {
     /// An upper bound on what the abstraction allows, in the shape of the partition.
     #[getter]
     fn upper<'py>(&self, py: Python<'py>) -> PyResult<OfCells<'py>> {
-        self.of_cells(py, self.upper.clone())
+        let upper = match (&*self.kind, &self.solved) {
+            (Kind::Targets(abstraction), Solved::Targets(answer)) => {
+                let of_state = |state: &StateId| answer.values.upper[state.index()];
+                abstraction.state_of_cell.iter().map(of_state).collect()
+            }
+            (Kind::Inputs(_), Solved::Inputs(solution)) => {
+                solution.values.upper[..self.controller.num_cells() as usize].to_vec()
+            }
+            _ => return Err(foreign()),
+        };
+        self.of_cells(py, upper)
     }
 
-    /// The guaranteed probability of success from the initial state, or from the worst cell that has an action.
+    /// The confidence with which bounds are guaranteed, 1 if the noise is known; None in reference mode, where nothing is.
+    #[getter]
+    fn confidence(&self) -> Option<f64> {
+        self.controller.guarantee().confidence()
+    }
+
+    /// The lower bound from the initial state, or from the worst cell that has an action.
     #[getter]
     fn bound(&self) -> f64 {
         self.controller.promised().bound
@@ -56,7 +88,7 @@ impl Solution {
         Controller::new(self.controller.clone())
     }
 
-    /// The guaranteed probability of success from a state, (n,), or states, (m, n): a number or (m,); 0 outside the partition.
+    /// The lower bound from a state, (n,), or states, (m, n): a number or (m,); 0 outside the partition.
     fn lower_at<'py>(&self, py: Python<'py>, x: Doubles<'py>) -> PyResult<Bound<'py, PyAny>> {
         let n = self.controller.state_dimension();
         let (alone, numbers) = states("x", &x, n)?;
@@ -86,8 +118,17 @@ impl Solution {
         most_steps: u64,
         confidence: f64,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let from = simulation::start(&self.stated, &self.controller, start)?;
-        simulate(py, (&self.stated, &self.controller), &from, (runs, seed, most_steps), confidence)
+        let from = simulation::start(&self.given.stated, &self.controller, start)?;
+        simulate(py, (&self.given.stated, &self.controller), &from, (runs, seed, most_steps), confidence)
+    }
+
+    /// Writes the directory that `dynabs compile --solve --no-tra` writes, for `dynabs report`, `export`, `simulate` and dynabs.open.
+    ///
+    /// All files appear or none. With force, a run that is there already is replaced.
+    #[pyo3(signature = (directory, force=false))]
+    fn save(&self, py: Python<'_>, directory: PathBuf, force: bool) -> PyResult<()> {
+        let given = (&*self.given, self.manifest.as_ref());
+        save(py, given, (&self.kind, &self.solved), (&directory, force))
     }
 
     /// Run number `run` of those, step by step. Returns a dict: states (steps + 1, n), inputs (steps, p), satisfied.
@@ -100,23 +141,37 @@ impl Solution {
         start: Option<Doubles<'py>>,
         most_steps: u64,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let from = simulation::start(&self.stated, &self.controller, start)?;
-        trajectory(py, (&self.stated, &self.controller), &from, (run, seed, most_steps))
+        let from = simulation::start(&self.given.stated, &self.controller, start)?;
+        trajectory(py, (&self.given.stated, &self.controller), &from, (run, seed, most_steps))
     }
 }
 
 impl Solution {
+    /// The controller of what was solved.
+    ///
+    /// # Errors
+    /// If the parts are of different problems, or make no controller: a mistake in this program.
     pub(crate) fn new(
-        stated: Arc<StatedProblem>,
-        controller: dynabs::controller::Controller,
-        upper: Vec<f64>,
-    ) -> Self {
-        Self { stated, controller: Arc::new(controller), upper }
+        given: Arc<Given>,
+        kind: Arc<Kind>,
+        solved: Solved,
+        manifest: Option<Manifest>,
+    ) -> PyResult<Self> {
+        let controller = match (&given.stated, &*kind, &solved) {
+            (StatedProblem::Targets(problem), Kind::Targets(abstraction), Solved::Targets(answer)) => {
+                dynabs::controller::Controller::new(problem, abstraction, answer).map_err(refused)?
+            }
+            (StatedProblem::Inputs(problem), Kind::Inputs(abstraction), Solved::Inputs(solution)) => {
+                dynabs::controller::Controller::of_inputs(problem, abstraction, solution)
+            }
+            _ => return Err(foreign()),
+        };
+        Ok(Self { given, kind, solved, controller: Arc::new(controller), manifest })
     }
 
     fn of_cells<'py>(&self, py: Python<'py>, numbers: Vec<f64>) -> PyResult<OfCells<'py>> {
         let shape: Vec<usize> =
-            grid(&self.stated).axes().iter().map(GridAxis::cells).map(|cells| cells as usize).collect();
+            grid(&self.given.stated).axes().iter().map(GridAxis::cells).map(|cells| cells as usize).collect();
         let count = numbers.len();
         array(py, numbers, count)?.reshape(shape)
     }

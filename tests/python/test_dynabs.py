@@ -154,6 +154,62 @@ def test_ctrl_c_ends_long_work():
     assert solution.simulate(runs=10)["runs"] == 10
 
 
+@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
+def test_ctrl_c_ends_a_long_run():
+    room = {
+        "name": "room", "dynamics": {"A": [[0.9]], "B": [[1]]}, "actions": "inputs",
+        "noise": {"components": [{"uniform": {"lower": -0.1, "upper": 0.1}}]},
+        "input": {"lower": [-1], "upper": [1], "points": [3]},
+        "partition": {"lower": [-2], "upper": [2], "cells": [20]},
+        "task": {"type": "stay", "horizon": "infinite"}, "initial_state": [0],
+    }
+    solution = dynabs.Problem(room).compile().solve()
+    assert solution.bound > 0.999 and solution.confidence == 1
+    threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        solution.trajectory(most_steps=10**12)
+    assert solution.trajectory(most_steps=10)["inputs"].shape == (10, 1)
+
+
+@pytest.mark.parametrize("model", [ROOM, ROOT / "examples" / "tasks" / "sequence.json"])
+def test_runs_are_saved_and_opened(model, tmp_path):
+    problem, solution = solved(model)
+    solution.save(tmp_path / "run")
+    again = dynabs.open(tmp_path / "run")
+    assert np.array_equal(again.lower, solution.lower) and np.array_equal(again.upper, solution.upper)
+    assert again.promise == solution.promise and again.bound == solution.bound
+    x = np.random.default_rng(1).uniform(problem.lower, problem.upper, (1000, len(problem.cells)))
+    for one, other in zip(again.controller(x), solution.controller(x)):
+        assert np.array_equal(one, other, equal_nan=True)
+    with pytest.raises(dynabs.Error):
+        solution.save(tmp_path / "run")
+    solution.save(tmp_path / "run", force=True)
+    # What was opened and is saved is what it was.
+    again.save(tmp_path / "copy")
+    files = sorted(path.name for path in (tmp_path / "run").iterdir())
+    assert "solution.bin" in files and files == sorted(path.name for path in (tmp_path / "copy").iterdir())
+    for name in files:
+        assert (tmp_path / "run" / name).read_bytes() == (tmp_path / "copy" / name).read_bytes(), name
+    (tmp_path / "run" / "solution.bin").write_bytes(b"")
+    for wrong in ["run", "nowhere"]:
+        with pytest.raises(dynabs.Error):
+            dynabs.open(tmp_path / wrong)
+
+
+def test_nothing_is_guaranteed_in_reference_mode():
+    pytest.importorskip("matplotlib").use("Agg")
+    from dynabs import plot
+
+    problem, solution = solved(probabilities={"mode": "reference"})
+    assert solution.confidence is None and solved()[1].confidence == 0.99
+    said = solution.simulate(runs=100)
+    assert said["promised"] is None and said["contradicted"] is None
+    assert "guaranteed" not in plot.bounds(solution, problem).get_ylabel()
+    # A run with one coordinate is drawn over time.
+    line = plot.trajectories(solution, runs=1).lines[0]
+    assert line.get_xdata().tolist() == list(range(len(line.get_ydata())))
+
+
 @pytest.mark.parametrize("example", ["tutorial.py", "sweep.py"])
 def test_examples_run(example, capsys):
     runpy.run_path(str(ROOT / "examples" / "python" / example), run_name="__main__")
@@ -165,7 +221,7 @@ def test_everything_has_words_and_types():
     assert (pathlib.Path(dynabs.__file__).parent / "py.typed").exists()
     from dynabs import _dynabs
 
-    for name in ["Problem", "Abstraction", "Solution", "Controller", "Model", "Result", "Error", "verify"]:
+    for name in ["Problem", "Abstraction", "Solution", "Controller", "Model", "Result", "Error", "verify", "open"]:
         one = getattr(_dynabs, name)
         assert one.__doc__ and f" {name}" in stubs
         for member in vars(one) if isinstance(one, type) else []:

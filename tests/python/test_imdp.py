@@ -36,7 +36,9 @@ def test_there_and_back(tmp_path):
         for before, after in zip(small.arrays(), read.arrays()):
             # A state without a choice may be written as one that stays.
             assert np.array_equal(before, after[: len(before)])
-        assert read.labels["goal"] == [1]
+        assert read.labels["goal"] == [1] and small.warnings == []
+    (tmp_path / "m.lab").unlink()
+    assert any("m.lab" in warning for warning in imdp.Model.read(tmp_path / "m.tra").warnings)
     with pytest.raises(dynabs.Error, match="ends in"):
         small.write(tmp_path / "m.txt7")
 
@@ -50,6 +52,9 @@ def test_sparse_matrices():
     assert abs(back[0] - lower).max() == 0 and abs(back[1] - upper).max() == 0
     assert back[2].tolist() == [0, 1, 2, 3]
     assert sparse.solve('Pmaxmin=? [ X "goal" ]').lower[0] == pytest.approx(0.3)
+    # Entries that are there twice are one, their sum.
+    twice = scipy.coo_array(([0.3, 0.1, 1, 0.5], ([0, 0, 1, 2], [0, 0, 1, 2])), (3, 3))
+    assert np.allclose(imdp.from_scipy(twice, upper).arrays()[3], sparse.arrays()[3])
     with pytest.raises(dynabs.Error, match="lower"):
         imdp.from_scipy(scipy.csr_array([[0.4, 0, 0.1], [0, 1, 0], [0, 0, 0.5]]), upper)
 
@@ -59,7 +64,7 @@ def test_certificates_prove(tmp_path):
         path = tmp_path / f"{i}.cert"
         result = model().solve(text, certificate=path)
         proved = imdp.verify(path, model())
-        assert proved["states"] == 2
+        assert proved["states"] == 2 and "goal" in proved["property"]
         if "> 0.5" not in text:
             assert result.lower[0] <= proved["upper"] and proved["lower"] <= result.upper[0]
     other = imdp.Model([0, 1, 1], [0, 2], [0, 1], [0.4, 0.3], [0.7, 0.5], labels={"goal": [1]})

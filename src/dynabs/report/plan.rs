@@ -60,19 +60,26 @@ pub(super) fn plan(material: &Material<'_>) -> Option<Plot> {
     let shown = (0..columns).flat_map(|i| (0..rows).map(move |j| (i, j)));
     let targets: BTreeSet<TargetId> =
         shown.filter_map(|(i, j)| plan.heading(view.cell(scene, i, j).0)).collect();
-    let dot = |&target: &TargetId| {
-        let Axis::State(dimension) = view.across else { return String::new() };
-        let x = point(target);
-        format!("M{} {}h0", coordinate(frame.x.at(x[dimension])), coordinate(frame.y.at(x[view.up])))
+    let place = |target: &TargetId| {
+        let Axis::State(dimension) = view.across else { return None };
+        let x = point(*target);
+        Some(format!("M{} {}h0", coordinate(frame.x.at(x[dimension])), coordinate(frame.y.at(x[view.up]))))
     };
-    let dots: String = targets.iter().map(dot).collect();
+    let dot = |target: &TargetId| {
+        let (d, region) = (place(target)?, number.get(target)?);
+        Some(format!("<path class=\"heading\" stroke=\"{}\" d=\"{d}\"/>", distinct(*region)))
+    };
+    let dots: String = targets.iter().filter_map(dot).collect();
+    let around: String = targets.iter().filter_map(place).collect();
+    let around = match &around[..] {
+        "" => String::new(),
+        d => format!("<path class=\"around heading\" d=\"{d}\"/>"),
+    };
     let inside = [
         group("heat", &tiles),
         group("regions", &(regions(scene, view, &frame, id) + &outlines(scene, view, &frame))),
-        group(
-            "arrows",
-            &format!("<path class=\"planned\" d=\"{dots}\"/><path class=\"arrow on-light\" d=\"{arrows}\"/>"),
-        ),
+        group("headings", &(around + &dots)),
+        group("arrows", &format!("<path class=\"arrow on-light\" d=\"{arrows}\"/>")),
     ];
     let at = view.at(scene, view.fixed());
     Some(Plot {
@@ -81,7 +88,7 @@ pub(super) fn plan(material: &Material<'_>) -> Option<Plot> {
         height: frame.height + 64.0,
         title: format!("{}: the plan over {across} and {up}{at}", scene.name),
         description:
-            "Cells of one colour steer to one target, a dot; arrows point from their centers towards it."
+            "Cells of one colour steer to one target, a dot of that colour; arrows point from their centers towards it."
                 .into(),
         content: format!(
             "<defs>{}{}</defs>\n<g clip-path=\"url(#{id}-clip)\">\n{}</g>\n{}",
@@ -122,9 +129,9 @@ pub(super) fn section(material: &Material<'_>) -> String {
     let header = ["steers to", "cells", "c<sub>i</sub>"];
     format!(
         "<section>\n<h2>The plan</h2>\n<figure>\n{}<figcaption><p>Cells of one colour are a region of the plan: the lower layer \
-         steers from all of them to one target, a dot, towards which the arrows point. Beside it the upper layer may choose \
+         steers from all of them to one target, the dot of that colour, towards which the arrows point. Beside it the upper layer may choose \
          what differs by inputs in U′.</p></figcaption></figure>\n<p>The lower layer is affine on every region i, with one gain, \
-         which brings any state of the region to its target:</p>\n{formula}{}</section>\n",
+         and without noise brings any state of the region to its target:</p>\n{formula}{}</section>\n",
         plot.inline(),
         table(&caption, &header, &rows)
     )

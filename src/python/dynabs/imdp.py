@@ -21,7 +21,8 @@ def from_scipy(lower, upper, state_offsets=None, labels=None, initial=(0,)):
     """
     upper = upper.tocsr().copy()
     upper.sum_duplicates()
-    lower = lower.tocsr()
+    lower = lower.tocsr().copy()
+    lower.sum_duplicates()
     if lower.shape != upper.shape:
         raise Error(f"lower: found the shape {lower.shape}; expected that of upper, {upper.shape}")
     rows = np.repeat(np.arange(upper.shape[0]), np.diff(upper.indptr))
