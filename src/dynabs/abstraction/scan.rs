@@ -124,10 +124,7 @@ impl<'a> Scan<'a> {
         let base = base * axis.len();
         let least = |i: usize| slack[i] - self.least_after[k][i];
         if deeper.is_empty() {
-            if let Some((first, last)) = self.feasible(axis, k, self.own(active), least) {
-                found.push(base + first, base + last);
-            }
-            return;
+            return self.line(axes, k, base / axis.len(), self.own(active), least, found);
         }
         // Where there is room for whatever comes after, with more than rounding to spare, it need not be looked at.
         let spare = |i: usize| self.spare * (slack[i].abs() + self.magnitudes[k][i]);
@@ -146,12 +143,33 @@ impl<'a> Scan<'a> {
                 }
                 continue;
             }
-            let next = &mut deeper[0];
-            next.active.clone_from(active);
-            for &i in &*active {
-                next.slack[i] = slack[i] - self.normals[k][i] * x;
+            let left = |i: usize| slack[i] - self.normals[k][i] * x;
+            match deeper {
+                // The last dimension gives a range: nothing is kept for it.
+                [_] => self.line(axes, k + 1, base + i, self.own(active), left, found),
+                [next, ..] => {
+                    next.active.clone_from(active);
+                    active.iter().for_each(|&i| next.slack[i] = left(i));
+                    self.lattice(axes, k + 1, base + i, deeper, found);
+                }
+                [] => {}
             }
-            self.lattice(axes, k + 1, base + i, deeper, found);
+        }
+    }
+
+    /// Looks along the last dimension `k`, where the half-spaces have so much room.
+    fn line(
+        &self,
+        axes: &[Vec<f64>],
+        k: usize,
+        base: usize,
+        half_spaces: &[usize],
+        room: impl Fn(usize) -> f64,
+        found: &mut Found<'_>,
+    ) {
+        let base = base * axes[k].len();
+        if let Some((first, last)) = self.feasible(&axes[k], k, half_spaces, room) {
+            found.push(base + first, base + last);
         }
     }
 

@@ -36,6 +36,7 @@ use super::query::Direction;
 use super::threshold::{FirstPass, Scratch, Threshold};
 use crate::model::{Row, RowBuffer, RowId, RowSet};
 use crate::numeric::rounding_factor;
+use fearless_simd::{Level, dispatch};
 
 /// Which side of the exact value a result is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,8 +92,22 @@ impl RowBlock {
 
     /// The expectations of the rows of the block at one or two values of every state, those `wanted`: each row is looked at once.
     ///
-    /// They are written to `out`, where the first row of the block is first and others have their places after it.
+    /// They are written to `out`, where the first row of the block is first and others have their places after it. The machine code is
+    /// the best that the processor has; as sums have fixed [lanes](super::threshold), the results are the same everywhere.
     pub(super) fn evaluate<const N: usize>(
+        &mut self,
+        all: &RowSet,
+        values: &[[f64; N]],
+        way: (Direction, [Bound; N]),
+        wanted: impl Fn(RowId) -> [bool; N],
+        out: [&mut [f64]; N],
+        workspace: &mut Workspace,
+    ) {
+        dispatch!(Level::new(), _ => self.evaluate_here(all, values, way, wanted, out, workspace));
+    }
+
+    #[inline(always)]
+    fn evaluate_here<const N: usize>(
         &mut self,
         all: &RowSet,
         values: &[[f64; N]],
@@ -145,8 +160,8 @@ impl WorstExpectation {
         let mut critical = near.unwrap_or(0) as u32;
         self.scratch.values.clear();
         self.scratch.values.extend(row.successors.iter().map(|&s| values[s.index()]));
-        let parts = (&mut critical, &mut self.scratch);
-        let worst = expectation((row, slack(row)), parts, Direction::Min, Bound::Lower);
+        let (own, parts) = ((row, slack(row)), (&mut critical, &mut self.scratch));
+        let worst = dispatch!(Level::new(), _ => expectation(own, parts, Direction::Min, Bound::Lower));
         self.threshold = row.successors.get(critical as usize).map_or(0.0, |s| values[s.index()]);
         worst
     }
@@ -158,6 +173,7 @@ fn slack(row: Row<'_>) -> f64 {
 }
 
 /// A bound on `min_p p·V` or `max_p p·V` for the values of its successors, see the module's documentation.
+#[inline(always)]
 fn expectation(
     (row, slack): (Row<'_>, f64),
     (critical, scratch): (&mut u32, &mut Scratch),

@@ -5,8 +5,8 @@ use crate::model::Row;
 /// How many sums are interleaved; they are added up in the same way whatever the threshold.
 const LANES: usize = 4;
 
-/// So often the next value is tried before the middle one of all that are left.
-const NEIGHBOURS: u32 = 2;
+/// If so many thresholds were too near the last one, it is computed how far away it is; what rounding makes of that, is near again.
+const FAR: u32 = 1;
 
 /// What pouring slack into a row comes to.
 pub(super) struct Threshold {
@@ -20,7 +20,8 @@ pub(super) struct Threshold {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scratch {
     pub(super) values: Vec<f64>,
-    open: Vec<f64>,
+    /// With their room.
+    open: Vec<(f64, f64)>,
 }
 
 /// Sums over the successors whose values come before a threshold.
@@ -50,6 +51,7 @@ pub(super) struct FirstPass {
 
 impl FirstPass {
     /// Of a row with such values; `critical` is the position of the threshold of the last iteration.
+    #[inline(always)]
     pub(super) fn new(
         row: Row<'_>,
         Scratch { values, .. }: &Scratch,
@@ -114,6 +116,7 @@ impl Threshold {
     /// Pours `slack` into a row with such values, those that come `before` others first.
     ///
     /// `critical` is the position of the last one in the last iteration, with the sums for it, and is replaced by the present one.
+    #[inline(always)]
     pub(super) fn find(
         row: Row<'_>,
         Scratch { values, open }: &mut Scratch,
@@ -122,32 +125,27 @@ impl Threshold {
         before: impl Fn(f64, f64) -> bool + Copy,
     ) -> Self {
         let mut sums = *first;
-        // The threshold comes after the one and before the other.
-        let (mut too_early, mut too_late) = (None, None);
-        let mut round = 0;
-        loop {
-            // Rounding keeps sums monotone, so where there is too much room there is an earlier value.
+        for round in 0.. {
+            // Rounding keeps sums monotone, so where there is too much room there is an earlier value, and the search never turns.
             let is_late = sums.room > slack;
             if !is_late && sums.room_with >= slack {
                 break;
             }
             let guess = sums.value;
-            *(if is_late { &mut too_late } else { &mut too_early }) = Some(guess);
-            let next = if round < NEIGHBOURS {
-                nearest(values, guess, |a, b| if is_late { before(b, a) } else { before(a, b) })
-            } else {
+            let is_ahead = |value: f64| if is_late { before(value, guess) } else { before(guess, value) };
+            let next = if round == FAR {
+                let needed = if is_late { slack } else { slack - sums.room_with };
                 open.clear();
-                open.extend(values.iter().copied().filter(|&value| {
-                    too_early.is_none_or(|bound| before(bound, value))
-                        && too_late.is_none_or(|bound| before(value, bound))
-                }));
-                let middle = open.len() / 2;
-                (!open.is_empty()).then(|| *open.select_nth_unstable_by(middle, f64::total_cmp).1)
+                let rooms = row.upper.iter().zip(row.lower).map(|(upper, lower)| upper - lower);
+                open.extend(values.iter().copied().zip(rooms).filter(|&(value, _)| is_ahead(value)));
+                filled(open, needed, before)
+            } else {
+                let ahead = values.iter().copied().filter(|&value| is_ahead(value));
+                ahead.reduce(|a, b| if before(a, b) == is_late { b } else { a })
             };
             // Without another one all room is too little.
             let Some(next) = next else { break };
             sums = Before::new(row, values, next, before);
-            round += 1;
         }
         if sums.value != first.value
             && let Some(position) = values.iter().position(|&value| value == sums.value)
@@ -160,18 +158,30 @@ impl Threshold {
     }
 }
 
-/// The value that is next after `from`; `precedes(a, b)` says that `a` comes before `b` on the way.
-fn nearest(values: &[f64], from: f64, precedes: impl Fn(f64, f64) -> bool) -> Option<f64> {
-    let mut next: Option<f64> = None;
-    for &value in values {
-        if precedes(from, value) && next.is_none_or(|next| precedes(value, next)) {
-            next = Some(value);
+/// The first value up to which successors have the room that is needed, or else the last one; to within rounding.
+fn filled(
+    mut open: &mut [(f64, f64)],
+    mut needed: f64,
+    before: impl Fn(f64, f64) -> bool + Copy,
+) -> Option<f64> {
+    let order = |a: &(f64, f64), b: &(f64, f64)| before(b.0, a.0).cmp(&before(a.0, b.0));
+    while open.len() > 1 {
+        let (early, middle, late) = open.select_nth_unstable_by(open.len() / 2, order);
+        let room: f64 = early.iter().map(|(_, room)| room).sum();
+        if room >= needed {
+            open = early;
+        } else if room + middle.1 >= needed || late.is_empty() {
+            return Some(middle.0);
+        } else {
+            needed -= room + middle.1;
+            open = late;
         }
     }
-    next
+    open.first().map(|(value, _)| *value)
 }
 
 impl Before {
+    #[inline(always)]
     fn new(row: Row<'_>, values: &[f64], threshold: f64, before: impl Fn(f64, f64) -> bool) -> Self {
         // Arrays that stay in registers, which a closure over them would not.
         let (mut room, mut room_with, mut share) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);

@@ -23,6 +23,9 @@ use std::sync::Arc;
 /// Runs from this length on are copied as a whole, if all of their cells are listed.
 const WORTH_COPYING: usize = 16;
 
+/// Shorter runs are copied together with what comes after them: always so many cells, which takes less time than to count them.
+const SHORT: usize = 8;
+
 /// The intervals of cells around an origin.
 #[derive(Clone, Debug)]
 pub(super) struct Stencil {
@@ -115,8 +118,8 @@ impl Stencil {
             return self.whole_row(ground, origin, special, entries);
         }
         let RowEntries { successors, lower, upper } = entries;
-        // One more, for what is written and not listed.
-        let room = length.min(self.runs.len() + 1) + 1;
+        // More than that, for what is written and not listed.
+        let room = length.min(self.runs.len() + 1) + SHORT;
         if successors.len() < room {
             successors.resize(room, StateId(0));
         }
@@ -131,18 +134,27 @@ impl Stencil {
             (successors[end], lower[end], upper[end]) = (state, bounds.0, bounds.1);
             end += 1;
         }
+        let lists_whole_box = self.lists_whole_box(ground, origin, length - end);
         self.runs.for_each(ground, origin, |first, position, length| {
-            let states = &ground.states[first..first + length];
-            if length >= WORTH_COPYING && ground.lists_all(states) {
-                let place = end..end + length;
-                successors[place.clone()].copy_from_slice(states);
-                upper[place.clone()].copy_from_slice(&self.upper[position + 1..position + 1 + length]);
-                self.copy_lower(position, &mut lower[place]);
+            let states = &ground.states[first..];
+            if lists_whole_box || length >= WORTH_COPYING && ground.lists_all(&states[..length]) {
+                copy_run(states, &mut successors[end..], length);
+                copy_run(&self.upper[position + 1..], &mut upper[end..], length);
+                match &self.lower {
+                    Lower::InOrder(own) => copy_run(&own[position + 1..], &mut lower[end..], length),
+                    Lower::At(of_places, places) => {
+                        let places = places[position..position + length].iter();
+                        lower[end..]
+                            .iter_mut()
+                            .zip(places)
+                            .for_each(|(low, &i)| *low = of_places[i as usize]);
+                    }
+                }
                 end += length;
                 return;
             }
-            for ((&state, &high), position) in states.iter().zip(&self.upper[position + 1..]).zip(position..)
-            {
+            let highs = &self.upper[position + 1..position + 1 + length];
+            for ((&state, &high), position) in states.iter().zip(highs).zip(position..) {
                 // What is not listed is overwritten by what comes next.
                 (successors[end], lower[end], upper[end]) = (state, self.lower(position), high);
                 end += usize::from(ground.lists(state));
@@ -151,16 +163,10 @@ impl Stencil {
         Row { successors: &successors[..end], lower: &lower[..end], upper: &upper[..end], exact: &[] }
     }
 
-    /// Writes the lower bounds from a position in the runs on.
-    fn copy_lower(&self, position: usize, out: &mut [f64]) {
-        match &self.lower {
-            Lower::InOrder(lower) => out.copy_from_slice(&lower[position + 1..position + 1 + out.len()]),
-            Lower::At(of_places, places) => {
-                for (out, &place) in out.iter_mut().zip(&places[position..]) {
-                    *out = of_places[place as usize];
-                }
-            }
-        }
+    /// Whether a row that lists so many cells lists all of the stencil's box that are in the grid.
+    fn lists_whole_box(&self, ground: &Ground, origin: &[i32], cells: usize) -> bool {
+        let hull = self.runs.hull();
+        self.runs.len() == hull.volume() && ground.volume(hull, origin) as usize == cells
     }
 
     /// Whether a row with so many entries lists all cells, with nothing else before them than is at hand.
@@ -196,6 +202,14 @@ impl Stencil {
             }
         };
         Row { successors, lower, upper, exact: &[] }
+    }
+}
+
+/// Copies so many numbers from the beginning of one array to that of another; what comes after them is overwritten later.
+fn copy_run<T: Copy>(from: &[T], to: &mut [T], length: usize) {
+    match (from.first_chunk::<SHORT>(), to.first_chunk_mut::<SHORT>()) {
+        (Some(from), Some(to)) if length <= SHORT => *to = *from,
+        _ => to[..length].copy_from_slice(&from[..length]),
     }
 }
 

@@ -69,7 +69,9 @@ impl Runs {
             return;
         }
         if self.len() == self.hull.volume() {
-            return self.walk(ground, origin, (0, 0, 0), &mut visit);
+            let spans: Option<Vec<Span>> =
+                (0..origin.len()).map(|j| Span::new(&self.hull, ground, origin, j)).collect();
+            return spans.map_or((), |spans| walk(&spans, (0, 0), &mut visit));
         }
         let Some(last) = origin.len().checked_sub(1) else { return };
         for ((positions, shift), start) in runs.zip(self.starts.chunks_exact(origin.len())) {
@@ -86,51 +88,62 @@ impl Runs {
             }
         }
     }
+}
 
-    /// The same where all cells of the box are there, without a look at those beyond the grid: dimension `j` and those after it,
-    /// with what those before add to the number of a cell and to its position.
-    fn walk(
-        &self,
-        ground: &Ground,
-        origin: &[i32],
-        (j, number, position): (usize, usize, usize),
-        visit: &mut impl FnMut(usize, usize, usize),
-    ) {
-        let Some((number, position, length)) = self.along(ground, origin, (j, number, position)) else {
-            return;
-        };
-        match origin.len() - j {
-            1 => visit(number, position, length),
-            // The last dimension is the same for all cells of the one before: most of the work is here.
-            2 => {
-                let cells = ground.cells[j + 1] as usize;
-                let width = (self.hull.upper[j + 1] - self.hull.lower[j + 1]) as usize + 1;
-                let Some((first, start, run)) = self.along(ground, origin, (j + 1, 0, 0)) else { return };
-                for i in 0..length {
-                    visit((number + i) * cells + first, (position + i) * width + start, run);
-                }
-            }
-            _ => {
-                (0..length).for_each(|i| self.walk(ground, origin, (j + 1, number + i, position + i), visit))
-            }
-        }
-    }
+/// The part of a box that lies in the grid along one dimension.
+struct Span {
+    /// How many cells the grid has there,
+    cells: usize,
+    /// and the box.
+    width: usize,
+    /// The first cell that both have, in the grid,
+    first: usize,
+    /// and in the box.
+    start: usize,
+    /// How many these are.
+    length: usize,
+}
 
-    /// The part of the box that lies in the grid along dimension `j`: the number and the position of its first cell, counted in
-    /// the dimensions up to this one, and how many cells there are.
-    fn along(
-        &self,
-        ground: &Ground,
-        origin: &[i32],
-        (j, number, position): (usize, usize, usize),
-    ) -> Option<(usize, usize, usize)> {
-        let (lower, upper) = (self.hull.lower[j], self.hull.upper[j]);
+impl Span {
+    fn new(hull: &CellBox, ground: &Ground, origin: &[i32], j: usize) -> Option<Self> {
+        let (lower, upper) = (hull.lower[j], hull.upper[j]);
         let first = lower.max(-origin[j]);
         let last = upper.min(ground.cells[j] - 1 - origin[j]);
-        (first <= last).then(|| {
-            let number = number * ground.cells[j] as usize + (first + origin[j]) as usize;
-            let position = position * ((upper - lower) as usize + 1) + (first - lower) as usize;
-            (number, position, (last - first) as usize + 1)
+        (first <= last).then(|| Self {
+            cells: ground.cells[j] as usize,
+            width: (upper - lower) as usize + 1,
+            first: (first + origin[j]) as usize,
+            start: (first - lower) as usize,
+            length: (last - first) as usize + 1,
         })
+    }
+
+    /// What a cell is counted as after the ones before it, in the grid and in the box.
+    fn after(&self, (number, position): (usize, usize)) -> (usize, usize) {
+        (number * self.cells + self.first, position * self.width + self.start)
+    }
+}
+
+/// Visits the cells of a box that has all of its cells, without a look at those beyond the grid: where they lie along these
+/// dimensions, with what those before add to the number of a cell and to its position.
+fn walk(spans: &[Span], before: (usize, usize), visit: &mut impl FnMut(usize, usize, usize)) {
+    match spans {
+        [] => {}
+        [run] => {
+            let (number, position) = run.after(before);
+            visit(number, position, run.length);
+        }
+        // Most of the work is here.
+        [span, run] => {
+            let (number, position) = span.after(before);
+            for i in 0..span.length {
+                let (number, position) = run.after((number + i, position + i));
+                visit(number, position, run.length);
+            }
+        }
+        [span, rest @ ..] => {
+            let (number, position) = span.after(before);
+            (0..span.length).for_each(|i| walk(rest, (number + i, position + i), visit));
+        }
     }
 }
