@@ -17,6 +17,14 @@ ROOT = pathlib.Path(__file__).parents[2]
 ROOM = ROOT / "models" / "room_temperature.json"
 
 
+@pytest.fixture(autouse=True)
+def interrupts_are_heard():
+    """Whoever starts the tests in the background may have told them to ignore interrupts."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 def solved(model=ROOM, **changes):
     document = json.loads(pathlib.Path(model).read_text())
     document.update(changes)
