@@ -4,6 +4,7 @@ use crate::system::Interval;
 use imdp::numeric::Rational;
 use num_traits::Zero;
 use std::collections::HashMap;
+use std::fmt;
 
 /// A node of a [`Graph`]; its operands have smaller numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -82,7 +83,7 @@ pub enum Node {
 }
 
 /// Expressions that share their common parts.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
     numbers: HashMap<Node, NodeId>,
@@ -91,6 +92,13 @@ pub struct Graph {
     texts: Vec<String>,
     /// Where a node was first written: (which text, column).
     places: HashMap<NodeId, (u32, u32)>,
+}
+
+/// The nodes, which say everything: what is written for developers is the same in every process.
+impl fmt::Debug for Graph {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Graph").field("nodes", &self.nodes).finish_non_exhaustive()
+    }
 }
 
 impl Graph {
