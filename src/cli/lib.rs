@@ -38,9 +38,10 @@ mod trajectories;
 mod unasked;
 
 pub use choices::{EncodingName, NamesChoice};
+pub use dynabs::report::thousands;
 pub use error::CliError;
 pub use exit::exit_with;
-pub use output::{print, print_json, thousands, warn};
+pub use output::{print, print_json, warn};
 pub use progress::Bars;
 pub use results::PropertyResult;
 pub use start::start;

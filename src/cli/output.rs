@@ -80,30 +80,9 @@ fn harmless(text: &str) -> Cow<'_, str> {
     shown.into()
 }
 
-/// A number with commas between groups of three digits.
-pub fn thousands(n: u64) -> String {
-    let digits = n.to_string();
-    let mut text = String::with_capacity(digits.len() * 4 / 3);
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn groups_of_three() {
-        let numbers = [(0, "0"), (999, "999"), (1_000, "1,000"), (39_773_745, "39,773,745")];
-        for (n, text) in numbers {
-            assert_eq!(thousands(n), text);
-        }
-    }
 
     #[test]
     fn nothing_moves_the_cursor() {

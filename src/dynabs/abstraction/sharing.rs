@@ -14,7 +14,7 @@ use crate::problem::{Problem, Stabilizer};
 use crate::system::{FeedbackLaw, Shares};
 
 /// So many steps are looked at.
-const STEPS: u64 = 30;
+const STEPS: u64 = 100;
 
 /// How many numbers may be looked at, in all comparisons,
 const MOST_WORK: u64 = 400_000_000;

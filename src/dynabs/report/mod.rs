@@ -40,6 +40,7 @@ mod words;
 pub use choice::{ViewChoice, ViewError};
 pub use input_material::InputMaterial;
 pub use material::{Material, MaterialOptions};
+pub use numbers::thousands;
 pub use page::{ReportError, input_page, page};
 pub use results::{CROSS_CHECK, CrossCheckError, read_cross_checks};
 pub use trade_off::{TradeOff, TradeOffPoint};

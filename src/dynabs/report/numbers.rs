@@ -50,6 +50,19 @@ pub(super) fn ticks(from: f64, to: f64, count: f64) -> Vec<f64> {
     (0..).map(|i| first + f64::from(i)).take_while(|i| *i <= last).map(|i| compact(i * step)).collect()
 }
 
+/// A number with commas between groups of three digits.
+pub fn thousands(n: u64) -> String {
+    let digits = n.to_string();
+    let mut text = String::with_capacity(digits.len() * 4 / 3);
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -70,5 +83,13 @@ mod tests {
         assert_eq!(ticks(-41.0, 41.0, 6.0), [-40.0, -20.0, 0.0, 20.0, 40.0]);
         assert_eq!(ticks(0.0, 1.0, 5.0), [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]);
         assert_eq!(ticks(-0.02, 0.02, 4.0), [-0.02, -0.01, 0.0, 0.01, 0.02]);
+    }
+
+    #[test]
+    fn groups_of_three() {
+        let numbers = [(0, "0"), (999, "999"), (1_000, "1,000"), (39_773_745, "39,773,745")];
+        for (n, text) in numbers {
+            assert_eq!(thousands(n), text);
+        }
     }
 }

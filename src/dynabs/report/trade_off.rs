@@ -2,7 +2,7 @@
 
 use super::frame::Frame;
 use super::markup::{Plot, escape, group};
-use super::numbers::{coordinate, round_step, short, ticks};
+use super::numbers::{coordinate, round_step, short, thousands, ticks};
 
 /// The size of the frame.
 const SIZE: (f64, f64) = (632.0, 320.0);
@@ -70,7 +70,7 @@ impl TradeOff {
         let parts: &[f64] = if to - from > 3.0 { &[1.0] } else { &[1.0, 2.0, 5.0] };
         let decades = from.floor() as i32..=to.ceil() as i32;
         let numbers = decades.flat_map(|decade| parts.iter().map(move |part| part * 10f64.powi(decade)));
-        let marks = numbers.map(|number| (number.log10(), grouped(number)));
+        let marks = numbers.map(|number| (number.log10(), thousands(number.round() as u64)));
         ((from, to), marks.filter(|&(at, _)| at >= from - 1e-9 && at <= to + 1e-9).collect())
     }
 
@@ -136,19 +136,6 @@ fn at(frame: &Frame, point: &TradeOffPoint) -> [String; 2] {
 /// The power of ten that a cost is; nothing costs as much as one.
 fn power(cost: f64) -> f64 {
     cost.max(1.0).log10()
-}
-
-/// A whole number with commas.
-fn grouped(number: f64) -> String {
-    let digits = format!("{number:.0}");
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }
 
 #[cfg(test)]

@@ -1,11 +1,14 @@
 //! How inputs share what is to be done, and the search for a better way.
 
-/// Rounds in which every input is thought over; mostly two change anything.
-const ROUNDS: usize = 4;
+/// Rounds in which every input is thought over; mostly a few change anything.
+const ROUNDS: usize = 12;
 /// What the weight of an input is multiplied by: 0 leaves it where it is.
-const FACTORS: [f64; 5] = [0.0, 0.25, 0.5, 2.0, 4.0];
+const FACTORS: [f64; 7] = [0.0, 0.25, 0.5, 0.8, 1.25, 2.0, 4.0];
 /// Where in its range, from −1 to 1, an input may be when nothing is demanded.
-const SHIFTS: [f64; 9] = [-1.0, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0];
+const SHIFTS: [f64; 17] = [
+    -1.0, -0.875, -0.75, -0.625, -0.5, -0.375, -0.25, -0.125, 0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75,
+    0.875, 1.0,
+];
 /// A smaller gain than this is not worth a law that is harder to read.
 const WORTH_IT: f64 = 1.02;
 /// What rounding may change; more than that is a difference.
